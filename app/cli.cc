@@ -1,9 +1,11 @@
 #include "app/cli.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -43,6 +45,10 @@ void add_common(CLI::App& command, Arguments& arguments) {
 CLI::App* add_command(CLI::App& app, Arguments& arguments, const char* name, const char* what) {
   auto* command = app.add_subcommand(name, what);
   command->add_option("scene", arguments.scene, "Scene file (TOML)")->required();
+  command
+      ->add_option("--set", arguments.settings,
+                   "Another value for a key of the scene, KEY=VALUE: accuracy=0.03, ring.pins=12; as often as wanted")
+      ->allow_extra_args(false);
   add_common(*command, arguments);
   return command;
 }
@@ -61,6 +67,30 @@ std::string unknown_command(const CLI::App& app) {
   const std::string near = nearest(word, commands);
   return fmt::format("{}: there is no such command{}; the commands are {} (annulus --help lists more)", word,
                      near.empty() ? "" : ", did you mean " + near + "?", known);
+}
+
+/// The message about an option that the command, or annulus without one, does not have; empty when all are known.
+std::string unknown_option(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* command = &app;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--") break;
+    if (command == &app)
+      for (const auto* named : app.get_subcommands({}))
+        if (named->get_name() == word) command = named;
+    if (word.size() < 2 || word.front() != '-' || std::isdigit(static_cast<unsigned char>(word[1])) != 0) continue;
+    const auto name = word.substr(0, word.find('='));
+    const bool one_letter = name[1] != '-';
+    if (command->get_option_no_throw(one_letter ? name.substr(0, 2) : name)) continue;
+    std::vector<std::string> known;
+    for (const auto* option : command->get_options())
+      for (const auto& other : option->get_lnames()) known.push_back("--" + other);
+    const auto near = nearest(name, known);
+    return fmt::format("{}: {} has no such option{}; the options are {}", name,
+                       command == &app ? "annulus" : "annulus " + command->get_name(),
+                       near.empty() ? "" : ", did you mean " + near + "?", fmt::join(known, ", "));
+  }
+  return "";
 }
 
 /// All commands with their options, which write into `arguments`.
@@ -101,25 +131,31 @@ void declare(CLI::App& app, Arguments& arguments) {
   };
   const auto examples = [](CLI::App* command, const std::string& text) { command->footer("Examples:\n" + text); };
 
-  examples(
-      cache(limits(budget(out(add_command(app, arguments, "run", "Everything the scene asks for, and the report"))))),
-      "  annulus run my.toml\n"
-      "  annulus run my.toml -o results --threads 4\n"
-      "  annulus run my.toml --budget 30s      as accurate as half a minute allows");
-  examples(
-      cache(limits(out(add_command(app, arguments, "solve", "Meshes, loaded transmission error, stiffness tables")))),
-      "  annulus solve my.toml -o results");
-  examples(cache(limits(
-               out(add_command(app, arguments, "dynamics", "The lumped model from tables, solved first if missing")))),
+  const auto json = [&](CLI::App* command) {
+    command->add_flag("--json", arguments.json, "Print the results as JSON (summary.json) instead of a table");
+    return command;
+  };
+  examples(json(cache(limits(
+               budget(out(add_command(app, arguments, "run", "Everything the scene asks for, and the report")))))),
+           "  annulus run my.toml\n"
+           "  annulus run my.toml -o results --threads 4\n"
+           "  annulus run my.toml --budget 30s      as accurate as half a minute allows\n"
+           "  annulus run my.toml --set supports.sun_N_per_m=floating -o out/floating");
+  examples(json(cache(limits(
+               out(add_command(app, arguments, "solve", "Meshes, loaded transmission error, stiffness tables"))))),
+           "  annulus solve my.toml -o results");
+  examples(json(cache(limits(
+               out(add_command(app, arguments, "dynamics", "The lumped model from tables, solved first if missing"))))),
            "  annulus dynamics faster.toml          takes cached tables of any earlier run that fit");
   examples(cache(limits(out(add_command(app, arguments, "tradeoff",
                                         "Every way to compute the stage measured: error against time and memory")))),
            "  annulus tradeoff my.toml              then open out/my/tradeoff.html");
   auto* compare =
-      app.add_subcommand("compare", "Finished runs side by side: figures, errors, inputs that differ, cost");
+      app.add_subcommand("compare", "Finished runs side by side: results, errors, inputs that differ, cost");
   compare->add_option("folders", arguments.folders, "Folders that annulus run wrote, two or more");
   compare->add_option("-o,--out", arguments.out,
                       "Page to write, FILE.html, with FILE.csv beside it; default comparison.html");
+  compare->add_flag("--json", arguments.json, "The comparison as JSON");
   add_common(*compare, arguments);
   examples(compare,
            "  annulus compare out/my out/faster\n"
@@ -238,9 +274,16 @@ int parse_and_run(int argc, char** argv) {
     return fail(system_message(error), refused);
   }
   try {
+    for (int i = 0; i < argc; ++i)
+      arguments.command_line += (i > 0 ? " " : "") + (i > 0 ? std::string(argv[i]) : std::string("annulus"));
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (const std::string unknown = unknown_command(app); !unknown.empty()) {
+      log::error(unknown);
+      return wrong_input;
+    }
+    const bool asks_for_help = error.get_exit_code() == 0;
+    if (const std::string unknown = asks_for_help ? std::string() : unknown_option(app, argc, argv); !unknown.empty()) {
       log::error(unknown);
       return wrong_input;
     }

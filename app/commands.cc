@@ -23,6 +23,7 @@
 #include "app/run/finished_run.h"
 #include "app/run/pipeline.h"
 #include "app/scene/new_scene.h"
+#include "app/scene/overrides.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_schema.h"
 #include "app/study/studies.h"
@@ -43,6 +44,7 @@ std::filesystem::path cache_of(const Arguments& arguments, const std::filesystem
 
 RunOptions run_options(const Arguments& arguments, const Scene& scene) {
   RunOptions options{.threads = arguments.threads};
+  options.command = arguments.command_line;
   options.out =
       arguments.out.empty() ? std::filesystem::path("out") / scene.file.stem() : std::filesystem::path(arguments.out);
   options.cache = cache_of(arguments, options.out);
@@ -93,7 +95,7 @@ void check_scene(const Scene& scene, const Arguments& arguments, bool with_dynam
 /// The scene as the file has it, or as accurate as the budget allows; what that means goes into `sentence`.
 Scene wanted_scene(const Arguments& arguments, std::string& sentence) {
   const double budget = arguments.budget ? parse_duration(*arguments.budget) : 0;
-  Scene scene = read_scene(arguments.scene);
+  Scene scene = read_scene_with(arguments.scene, arguments.settings);
   if (!arguments.budget) return scene;
   check_stage(scene);
   auto choice = fit_budget(scene, budget, arguments.threads);
@@ -111,21 +113,26 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   auto folder = folder_of(options, scene);
   options.folder = &folder;
   const auto id = run_id(scene, options);
+  std::string text;
   if (const auto earlier = finished_run(options.out, id)) {
-    fmt::print("{}reused   everything: nothing has changed since the run above\n", *earlier);
+    text = *earlier + "reused   everything: nothing has changed since the run above\n";
   } else {
     folder.check();
     check_scene(scene, arguments, with_dynamics);
     hold(arguments, options);
     remove_unfinished_files(options.out);
     remove_unfinished_files(options.cache);
-    const auto text = run_text(*run_system(scene, options));
+    text = run_text(*run_system(scene, options));
+    write_file(options.out / "run.log", log::recorded() + "\n" + text);
     folder.remove_earlier(is_of_run);
     keep_finished_run(options.out, id, text, folder.written(is_of_run));
-    fmt::print("{}", text);
   }
-  if (!budget.empty()) fmt::print("{}\n", budget);
-  fmt::print("report  {}\n", (options.out / "report.html").string());
+  if (arguments.json) {
+    fmt::print("{}", read_file(options.out / "summary.json"));
+  } else if (!arguments.quiet) {
+    if (!budget.empty()) text += budget + "\n";
+    fmt::print("{}report  {}\n", text, (options.out / "report.html").string());
+  }
 }
 
 }  // namespace
@@ -156,7 +163,7 @@ void run_command(const Arguments& arguments) { run_and_print(arguments, true); }
 void solve_command(const Arguments& arguments) { run_and_print(arguments, false); }
 
 void dynamics_command(const Arguments& arguments) {
-  const Scene scene = read_scene(arguments.scene);
+  const Scene scene = read_scene_with(arguments.scene, arguments.settings);
   if (!scene.dynamics) throw InputError(arguments.scene + ": has no [dynamics] table; add one to run the lumped model");
   run_and_print(arguments, true);
 }
@@ -176,7 +183,7 @@ void plan_command(const Arguments& arguments) {
 }
 
 void check_command(const Arguments& arguments) {
-  const Scene scene = read_scene(arguments.scene);
+  const Scene scene = read_scene_with(arguments.scene, arguments.settings);
   check_stage(scene);
   check_files(scene);
   check_studies(scene);
@@ -192,7 +199,7 @@ void check_command(const Arguments& arguments) {
 }
 
 void tradeoff_command(const Arguments& arguments) {
-  const Scene scene = read_scene(arguments.scene);
+  const Scene scene = read_scene_with(arguments.scene, arguments.settings);
   const auto options = run_options(arguments, scene);
   check_out(options.out);
   auto folder = folder_of(options, scene);
@@ -225,6 +232,11 @@ void compare_command(const Arguments& arguments) {
   write_report(page, comparison_page(runs), pictures);
   folder.remove_earlier([](const std::string&) { return true; });
   write_file(table, comparison_csv(runs));
+  if (arguments.json) {
+    fmt::print("{}\n", comparison_json(runs).dump(2));
+    return;
+  }
+  if (arguments.quiet) return;
   fmt::print("{}table   {}\npage    {}\npictures {}\n", comparison_text(runs), table.string(), page.string(),
              (page.parent_path() / pictures).string());
 }

@@ -9,8 +9,10 @@ namespace annulus::app {
 /// What the command line says, whatever the command.
 struct Arguments {
   std::string scene, out, cache, key, format, ring, kind, rexs, shell;
+  std::string command_line;          ///< as a whole
   std::vector<std::string> folders;  ///< of compare
   std::optional<std::string> budget, max_memory, max_time;
+  std::vector<std::string> settings;  ///< of --set
   bool json = false, strict = false, markdown = false, definitions = false, clear = false, quiet = false,
        verbose = false;
   int threads = 1;

@@ -60,6 +60,8 @@ add_library(annulus_matio INTERFACE)
 target_link_libraries(annulus_matio INTERFACE PkgConfig::MATIO)
 
 # Inlined in reports when they are written.
+find_package(ZLIB REQUIRED)
+find_file(ANNULUS_PAKO_JS pako_inflate.min.js PATHS /usr/share/nodejs/pako/dist NO_DEFAULT_PATH REQUIRED)
 find_file(ANNULUS_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js NO_DEFAULT_PATH REQUIRED)
 find_file(ANNULUS_THREE_JS three.min.js PATHS /usr/share/javascript/three NO_DEFAULT_PATH REQUIRED)
 find_file(ANNULUS_ORBIT_JS OrbitControls.js PATHS /usr/share/javascript/three/examples/js/controls NO_DEFAULT_PATH REQUIRED)

@@ -57,7 +57,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # What shared libraries do not tell: the scripts that reports contain.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libjs-chart.js, libjs-three")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libjs-chart.js, libjs-three, node-pako")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenblas0-pthread")
 # For who builds against the libraries.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS

@@ -50,6 +50,7 @@ struct FigureSpec {
   Guarantee guarantee = Guarantee::none;
   std::string quantity{};   ///< results that define the same quantity in different ways share it: "load_sharing"
   int digits = 4;           ///< where no error limits them
+  bool headline = false;    ///< in the short table of a run
   bool compared = false;    ///< listed by comparisons of runs
   bool cost_study = false;  ///< its error is measured over the cost (annulus tradeoff)
   bool plotted = false;     ///< over sweeps and grids

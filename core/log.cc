@@ -1,5 +1,6 @@
 #include "core/log.h"
 
+#include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
@@ -7,12 +8,18 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <sstream>
 
 namespace annulus::log {
 
 namespace {
 
-// Made on first use, so that static initialisation order does not matter; the only global of annulus.
+std::ostringstream& record() {
+  static std::ostringstream text;
+  return text;
+}
+
+// Made on first use, so that static initialisation order does not matter; with the record the only global of annulus.
 spdlog::logger& logger() {
   static const auto instance = [] {
     // Coloured on a terminal only, and not where the user wants none (no-color.org).
@@ -23,7 +30,8 @@ spdlog::logger& logger() {
     for (const auto level : {spdlog::level::info, spdlog::level::debug}) sink->set_color(level, sink->reset);
     sink->set_color(spdlog::level::warn, sink->yellow);
     sink->set_color(spdlog::level::err, sink->red);
-    auto made = std::make_shared<spdlog::logger>("annulus", std::move(sink));
+    const auto kept = std::make_shared<spdlog::sinks::ostream_sink_mt>(record());
+    auto made = std::make_shared<spdlog::logger>("annulus", spdlog::sinks_init_list{sink, kept});
     made->set_pattern("%^%v%$");
     made->set_level(spdlog::level::info);
     made->flush_on(spdlog::level::info);
@@ -53,6 +61,7 @@ void info(const std::string& message) { logger().info("{}", message); }
 void debug(const std::string& message) { logger().debug("{}", message); }
 void error(const std::string& message) { logger().error("{}", message); }
 void warn(const std::string& message) { logger().warn("warning: {}", message); }
+std::string recorded() { return record().str(); }
 
 }  // namespace annulus::log
 

@@ -18,6 +18,8 @@ void info(const std::string& message);
 void debug(const std::string& message);
 void warn(const std::string& message);
 void error(const std::string& message);  ///< what ends the program
+/// All messages so far, a line each.
+[[nodiscard]] std::string recorded();
 
 }  // namespace annulus::log
 

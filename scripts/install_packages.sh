@@ -12,7 +12,7 @@ packages=(
   libboost-dev libboost-test-dev
   libopenblas-dev libopenblas0-pthread
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-  zlib1g-dev libhdf5-dev libmatio-dev libpugixml-dev librsvg2-dev libjs-chart.js libjs-three
+  zlib1g-dev libhdf5-dev libmatio-dev libpugixml-dev librsvg2-dev libjs-chart.js libjs-three node-pako
 )
 tests=(python3 clang-format)
 all=(

@@ -5,12 +5,15 @@
 
 #include "app/compare/compared_run.h"
 #include "app/report/page.h"
+#include "core/json.h"
 
 /// Finished runs side by side, in every form.
 namespace annulus::app {
 
 [[nodiscard]] std::string comparison_text(const std::vector<ComparedRun>& runs);  ///< for standard output
-/// One row per figure and variant: SI values, errors, and what they say against the first variant.
+/// Results of all variants in the units people read them in, with errors and spreads, and the inputs that differ.
+[[nodiscard]] Json comparison_json(const std::vector<ComparedRun>& runs);
+/// One row per result and variant: values, errors, and what they say against the first variant.
 [[nodiscard]] std::string comparison_csv(const std::vector<ComparedRun>& runs);
 [[nodiscard]] Page comparison_page(const std::vector<ComparedRun>& runs);
 [[nodiscard]] std::string comparison_html(const std::vector<ComparedRun>& runs);  ///< a self-contained page

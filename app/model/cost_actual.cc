@@ -29,8 +29,7 @@ CostRun actual_time(CostRun size, double seconds) {
 
 PlanCost actual_costs(const SystemRun& run) {
   PlanCost cost = run.plan.cost;
-  for (auto& step : cost.steps)
-    if (step.kind != CostKind::studies) step.actual = run.actual(step);
+  for (auto& step : cost.steps) step.actual = run.actual(step);
   std::erase_if(cost.steps, [](const CostStep& step) { return !step.actual; });
   // Where nothing was computed there is nothing to compare.
   if (std::all_of(cost.steps.begin(), cost.steps.end(), [](const CostStep& s) { return s.kind == CostKind::files; }))
@@ -40,7 +39,8 @@ PlanCost actual_costs(const SystemRun& run) {
 
 void keep_costs(const PlanCost& done) {
   std::vector<CostRun> runs;
-  for (const auto& step : done.steps) runs.push_back(*step.actual);
+  for (const auto& step : done.steps)
+    if (step.kind != CostKind::studies) runs.push_back(*step.actual);
   learn_pace(runs);
 }
 
@@ -69,7 +69,8 @@ Json cost_json(const PlanCost& done) {
          {"name", step.label},
          {"predicted_s", json_number(step.predicted.seconds)},
          {"actual_s", step.actual->seconds()},
-         {"law", step.kind == CostKind::files ? to_text(step.kind) : cost_law(step.actual->work).name},
+         {"law", step.kind == CostKind::files || step.kind == CostKind::studies ? to_text(step.kind)
+                                                                                : cost_law(step.actual->work).name},
          {"degree", step.actual->degree},
          {"level", step.actual->level},
          {"levels", step.actual->levels},

@@ -35,6 +35,7 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
        .effort = FigureEffort::tables,
        .guarantee = Guarantee::always,
        .quantity = quantity,
+       .headline = true,
        .compared = true},
       {.key = mesh + "_stiffness_ripple",
        .title = "Ripple of the stiffness of the " + title,
@@ -60,6 +61,7 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
        .term = "transmission_error",
        .better = Better::smaller,
        .effort = FigureEffort::tables,
+       .headline = true,
        .compared = true}};
   const auto add = [&](const std::string& key, const std::string& name, const std::string& definition) -> FigureSpec& {
     return specs.emplace_back(FigureSpec{.key = mesh + "_" + key,
@@ -77,12 +79,14 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
                    "largest over mean line load (ISO 6336-1), the largest over the mesh cycles at the nominal load");
   face.symbol = "K_Hβ";
   face.term = "face_load_factor";
+  face.headline = true;
   for (const auto& body : bodies)
     for (const auto& [key, name] : stress_names) {
       auto& stress = add(body + "_" + key + "_Pa", std::string(name) + " of the " + body,
                          "largest over the mesh cycles at the nominal load");
       stress.unit = "MPa";
       stress.term = std::string(key).starts_with("root") ? "root_stress" : "rim_stress";
+      stress.headline = std::string(key) != "root_von_mises";
       stress.scale = 1e-6;
     }
   return specs;

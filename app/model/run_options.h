@@ -21,6 +21,7 @@ struct RunOptions {
   std::filesystem::path cache{};   ///< folder of cached results; empty: OUT/cache
   ResultFolder* folder = nullptr;  ///< `out`, begun before the run writes; null: nobody watches over it
   int threads = 1;
+  std::string command{};      ///< the command line, for the report
   bool with_dynamics = true;  ///< false: meshes, transmission error and stiffness only
   // Set by the run itself (with_reuse); without them nothing is noted and everything is computed.
   std::shared_ptr<Reuse> reuse{};

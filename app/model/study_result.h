@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -129,6 +130,7 @@ struct StudyResults {
   std::optional<MonteCarloResult> monte_carlo{};
   std::optional<SensitivityResult> sensitivity{};
   std::optional<OptimiseResults> optimise{};
+  std::map<std::string, double> seconds{};  ///< wall time by StudyPlan::name, of those that reused nothing
 
   [[nodiscard]] const FigureSpec* ordering() const { return ordering_figure(figures); }
 };

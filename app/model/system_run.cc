@@ -85,6 +85,10 @@ std::optional<CostRun> SystemRun::actual(const CostStep& step) const {
         return actual_time(step.size, responses[i]->seconds);
     return std::nullopt;
   }
+  if (step.kind == CostKind::studies) {
+    const auto found = studies.seconds.find(step.label);
+    return found == studies.seconds.end() ? std::nullopt : std::optional(actual_time(step.size, found->second));
+  }
   if (step.kind == CostKind::files) {
     const auto other = std::find_if(timings.begin(), timings.end(), [](const auto& t) { return t.first == "other"; });
     return other == timings.end() ? std::nullopt : std::optional(actual_time(step.size, other->second));

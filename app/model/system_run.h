@@ -46,6 +46,7 @@ struct SystemRun : std::enable_shared_from_this<SystemRun> {
   double peak_memory_MB = 0;
   PlanCost cost{};  ///< predicted and actual, of the steps that were not reused
   std::shared_ptr<const Reuse> reuse{};
+  std::string command{}, date{};  ///< for the report: the command line, and when it ran
 
   /// Stiffness tables of all meshes.
   void solve_meshes(const RunOptions& options);

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <boost/algorithm/string/replace.hpp>
 #include <cctype>
 #include <cstdlib>
 
 #include "app/report/plot/chart.h"
 #include "app/report/plot/colour_scale.h"
+#include "app/report/text/packed.h"
 #include "app/report/text/svg.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -74,6 +74,8 @@ class BlockWriter {
   }
 
   std::string section;  ///< anchor of the one that is being written
+  bool folded = false;  ///< its pictures are unpacked when it is opened
+  bool packs = false;   ///< whether pages can unpack
   std::vector<PictureFile> pictures;
   bool has_plots = false, has_views = false;
 
@@ -87,6 +89,8 @@ class BlockWriter {
     return fmt::format("<p{}>{}</p>\n", paragraph.tone == Paragraph::Tone::muted ? " class=\"muted\"" : "",
                        app::html(paragraph.text));
   }
+
+  static std::string written(const Lines& lines) { return "<pre>" + escape(lines.text) + "</pre>\n"; }
 
   std::string written(const List& list) {
     std::string items;
@@ -119,7 +123,7 @@ class BlockWriter {
       const auto first = pictures.size();
       const auto drawn = std::visit([this](const auto& d) { return written(d); }, picture.drawn);
       narrow = one && is_narrow(pictures[first].svg);
-      cells += "<div>";
+      cells += "<div" + choice("ring", picture.ring) + choice("mesh", picture.mesh) + ">";
       if (!picture.title.empty()) cells += "<h3>" + app::html(picture.title) + "</h3>";
       cells += drawn;
       if (!picture.caption.empty()) cells += "<figcaption>" + app::html(picture.caption) + "</figcaption>";
@@ -167,36 +171,60 @@ class BlockWriter {
 
   std::string written(const Drawing& drawing) { return recorded(drawing.svg); }
 
-  /// JSON in a <script> element, which "</script>" and "<!--" within a text would end.
-  static std::string data(const nlohmann::json& numbers) {
-    auto json = numbers.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    boost::replace_all(json, "<", "\\u003c");
-    return "<script type=\"application/json\">" + json + "</script>";
+  static std::string choice(const char* what, const std::string& value) {
+    return value.empty() ? "" : fmt::format(" data-{}=\"{}\"", what, escape(value));
+  }
+
+  [[nodiscard]] std::string data(const nlohmann::json& numbers) const {
+    if (!packs) return {};
+    return "<script type=\"text/plain\" class=\"data\">" +
+           packed(numbers.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) + "</script>";
   }
 
   std::string recorded(const std::string& svg) {
     pictures.push_back({section, attribute(svg, "aria-label"), svg});
-    return svg;
+    constexpr std::size_t small = 4000;
+    if (!folded || !packs || svg.size() < small) return svg;
+    return "<script type=\"text/plain\" class=\"picture\">" + packed(svg) + "</script>";
   }
 };
 
-/// A library with our script on top; nothing when a file of it is not installed.
+/// The text of a library for the page; nothing where it is not installed.
+std::string library(const char* file, const char* package) {
+  try {
+    return read_file(file);
+  } catch (const InputError&) {
+    log::warn(fmt::format("pictures of the report stay pictures: {} is not installed (Debian: {})", file, package));
+    return {};
+  }
+}
+
+/// Libraries with our script on top; nothing when a file of it is not installed.
 std::string scripts(const std::vector<const char*>& libraries, const char* own, const char* package) {
   std::string text;
   for (const char* file : libraries) {
-    try {
-      text += "<script>" + read_file(file) + "</script>\n";
-    } catch (const InputError&) {
-      log::warn(fmt::format("pictures of the report stay pictures: {} is not installed (Debian: {})", file, package));
-      return {};
-    }
+    const auto script = library(file, package);
+    if (script.empty()) return {};
+    text += "<script type=\"text/plain\" class=\"library\">" + packed(script) + "</script>\n";
   }
-  return text + "<script>" + own + "</script>\n";
+  return text + "<script type=\"text/plain\" class=\"own\">" + own + "</script>\n";
 }
 
-std::string heading_html(const Section& section) {
-  return fmt::format("<h2 id=\"{}\">{}</h2>\n", escape(section.anchor),
-                     escape(section.title.empty() ? section.name : section.title));
+/// What a reader may choose, by name; nothing when there is one.
+std::string choice_html(const char* key, const char* what, const std::vector<std::string>& names) {
+  if (names.size() < 2) return {};
+  std::string options;
+  for (const auto& name : names) options += fmt::format("<option value=\"{0}\">{0}</option>", escape(name));
+  return fmt::format("<label>{} <select data-choose=\"{}\">{}<option value=\"\">all</option></select></label>", what,
+                     key, options);
+}
+
+std::string section_html(const Section& section, const std::string& blocks) {
+  const auto title = escape(section.title.empty() ? section.name : section.title), anchor = escape(section.anchor);
+  if (section.folded)
+    return fmt::format("<details class=\"section\" id=\"{}\"><summary><h2>{}</h2></summary>\n{}</details>\n", anchor,
+                       title, blocks);
+  return fmt::format("<h2 id=\"{}\">{}</h2>\n{}", anchor, title, blocks);
 }
 
 }  // namespace
@@ -210,25 +238,33 @@ std::string html(const Text& text) {
 
 std::string html(const Section& section) {
   if (section.blocks.empty()) return {};
-  return heading_html(section) + BlockWriter(section.anchor).written(section.blocks.list());
+  return section_html(section, BlockWriter(section.anchor).written(section.blocks.list()));
 }
 
 RenderedPage rendered(const Page& page) {
   BlockWriter writer;
+  const auto unpacker = library(ANNULUS_PAKO_JS, "node-pako");
+  writer.packs = !unpacker.empty();
   const auto summary = writer.written(page.summary.list());
   std::string links, sections;
   for (const auto& section : page.sections) {
     if (section.blocks.empty()) continue;
     writer.section = section.anchor;
-    links += fmt::format("<a href=\"#{}\">{}</a>", escape(section.anchor), escape(section.name));
-    sections += heading_html(section) + writer.written(section.blocks.list());
+    writer.folded = section.folded;
+    links += fmt::format("<li><a href=\"#{}\">{}</a></li>", escape(section.anchor), escape(section.name));
+    sections += section_html(section, writer.written(section.blocks.list()));
   }
   std::string script;
-  if (writer.has_plots) script += scripts({ANNULUS_CHART_JS}, page_script, "libjs-chart.js");
-  if (writer.has_views) script += scripts({ANNULUS_THREE_JS, ANNULUS_ORBIT_JS}, view3d_script, "libjs-three");
-  return {fmt::format(fmt::runtime(page_template), fmt::arg("title", escape(page.title)), fmt::arg("style", page_style),
-                      fmt::arg("sub", html(page.sub)), fmt::arg("summary", summary), fmt::arg("links", links),
-                      fmt::arg("sections", sections), fmt::arg("scripts", script)),
+  if (writer.packs) script = "<script>" + unpacker + "</script>\n<script>" + base_script + "</script>\n";
+  if (writer.packs && writer.has_plots) script += scripts({ANNULUS_CHART_JS}, page_script, "libjs-chart.js");
+  if (writer.packs && writer.has_views)
+    script += scripts({ANNULUS_THREE_JS, ANNULUS_ORBIT_JS}, view3d_script, "libjs-three");
+  if (writer.packs) script += "<script>annulus.begin();</script>\n";
+  return {fmt::format(
+              fmt::runtime(page_template), fmt::arg("title", escape(page.title)), fmt::arg("style", page_style),
+              fmt::arg("sub", html(page.sub)), fmt::arg("summary", summary), fmt::arg("links", links),
+              fmt::arg("choices", choice_html("ring", "Ring", page.rings) + choice_html("mesh", "Mesh", page.meshes)),
+              fmt::arg("sections", sections), fmt::arg("scripts", script)),
           std::move(writer.pictures)};
 }
 

@@ -18,6 +18,11 @@ struct Heading {
   std::string anchor{};  ///< empty: nothing links to it
 };
 
+/// Lines as they are, such as the text of a file.
+struct Lines {
+  std::string text;
+};
+
 struct Paragraph {
   Text text;
   enum class Tone { plain, muted } tone = Tone::plain;
@@ -34,17 +39,6 @@ struct PageTable {
   std::vector<std::vector<Text>> rows{};
   Style style = Style::text;
 };
-/// A table of numbers whose first column holds the labels of the rows; columns are added to it.
-[[nodiscard]] inline PageTable labelled_rows(const std::vector<Text>& labels) {
-  PageTable table{.head = {""}, .style = PageTable::Style::numbers};
-  for (const auto& label : labels) table.rows.push_back({label});
-  return table;
-}
-inline void add_column(PageTable& table, const Text& head, const std::vector<Text>& cells) {
-  table.head.push_back(head);
-  for (std::size_t i = 0; i < table.rows.size(); ++i) table.rows[i].push_back(cells.at(i));
-}
-
 /// A drawing to scale, as an <svg> element.
 struct Drawing {
   std::string svg;
@@ -55,6 +49,7 @@ using Drawn = std::variant<Plot, BarChart, ColourMap, SpreadPlot, Drawing, BodyV
 struct Picture {
   Drawn drawn;
   Text title{}, caption{};
+  std::string ring{}, mesh{};  ///< shown where these are chosen; empty: always
 
   template <class Kind>
   requires std::is_constructible_v<Drawn, Kind> Picture(Kind kind, Text above = {}, Text below = {})
@@ -84,7 +79,7 @@ struct Box {
 };
 
 struct Block {
-  std::variant<Heading, Paragraph, List, PageTable, Pictures, Box> content;
+  std::variant<Heading, Paragraph, Lines, List, PageTable, Pictures, Box> content;
 };
 
 /// Blocks one after the other, put together with + and +=.
@@ -120,6 +115,7 @@ struct Section {
   std::string name;  ///< in the list of links
   Blocks blocks{};
   std::string title{};  ///< empty: the name
+  bool folded = false;  ///< shown when it is opened
 };
 
 /// A whole page: title, line below it, what came out, and sections.
@@ -128,6 +124,7 @@ struct Page {
   Text sub{};
   Blocks summary{};
   std::vector<Section> sections{};
+  std::vector<std::string> rings{}, meshes{};  ///< to choose from; a single one needs no choice
 };
 
 }  // namespace annulus::app

@@ -29,7 +29,7 @@ constexpr const char *list_name = "owner.txt",
                          "# The scene whose results these are, and the files that annulus wrote here. It removes and "
                          "replaces no others.\n";
 constexpr const char* other_folder = "give another folder (-o)";
-constexpr const char* files_of_every_run[] = {"report.html", "summary.json", "figures.csv", "run.json"};
+constexpr const char* files_of_every_run[] = {"report.html", "summary.json", "figures.csv", "run.json", "run.log"};
 
 /// As it can stand in a line.
 std::string on_one_line(std::string text) {
@@ -300,7 +300,7 @@ void ResultFolder::remove_earlier(const Which& which) {
 bool is_name_of_run(const std::string& name) {
   static const std::set<std::string> folders = {"cache",    "computed", "dynamics",    "errors",  "grid",  "mesh",
                                                 "optimise", "pictures", "sensitivity", "studies", "sweep", "tradeoff"};
-  static const std::set<std::string> endings = {".csv", ".html", ".json", ".svg", ".txt"};
+  static const std::set<std::string> endings = {".csv", ".html", ".json", ".log", ".svg", ".txt"};
   return folders.contains(name) || endings.contains(fs::path(name).extension().string()) || is_unfinished(name);
 }
 

@@ -1,6 +1,9 @@
 #include "app/run/pipeline.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+
+#include <ctime>
 
 #include <algorithm>
 
@@ -59,6 +62,8 @@ std::shared_ptr<const SystemRun> run_system(const Scene& scene, const RunOptions
   const RunOptions options = with_reuse(given);
   const auto result = std::make_shared<SystemRun>(scene);
   auto& run = *result;
+  run.command = options.command;
+  run.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(std::time(nullptr)));
   if (scene.reference) run.reference = read_reference(file_of_scene(scene, "reference", *scene.reference));
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
   run.plan = run.system->plan(options.threads);
@@ -109,12 +114,20 @@ std::string summary_json(const SystemRun& run) {
 
 std::string run_text(const SystemRun& run) {
   std::string text = run.system->text(run) + "\n";
-  for (const auto& warning : run_warnings(run)) text += to_text(warning) + "\n";
+  std::size_t notes = 0;
+  for (const auto& warning : run_warnings(run)) {
+    if (warning.severity == Severity::note)
+      ++notes;
+    else
+      text += to_text(warning) + "\n";
+  }
+  if (notes > 0) text += fmt::format("{} notes: in the report and in summary.json\n", notes);
   text += "\ntime   ";
   for (const auto& [step, seconds] : run.timings) text += fmt::format(" {} {:.2f} s ", step, seconds);
   text += fmt::format("\nmemory  {:.0f} MB at the peak\n", run.peak_memory_MB);
   if (const std::string cost = cost_sentence(run); !cost.empty()) text += "cost    " + cost + "\n";
-  return run.reuse ? text + run.reuse->text() : text;
+  if (run.reuse) text += run.reuse->text();
+  return text + "results all of them in figures.csv\n";
 }
 
 }  // namespace annulus::app

@@ -30,6 +30,15 @@ Table top_level_table() {
   return top.done();
 }
 
+Table report_table() {
+  Declarations<Scene> report("report", "What the head of the report names.",
+                             [](Scene& s, std::size_t) -> Scene& { return s; });
+  report.optional();
+  report.key("project", &Scene::project, "Project or customer.").fallback("", "none is named");
+  report.key("author", &Scene::author, "Who made it.").fallback("", "none is named");
+  return report.done();
+}
+
 Table stage_table() {
   Declarations stage("stage", "The gear set and its operating point.", &Scene::stage);
   std::vector<Choice<std::string>> kinds;
@@ -117,7 +126,9 @@ Table dynamics_table() {
 
 }  // namespace
 
-std::vector<Table> first_common_tables() { return {top_level_table(), stage_table(), material_table()}; }
+std::vector<Table> first_common_tables() {
+  return {top_level_table(), report_table(), stage_table(), material_table()};
+}
 
 std::vector<Table> last_common_tables() {
   auto tables = study_tables();

@@ -23,6 +23,7 @@ namespace annulus::app {
 struct Scene : PlanetaryInput, PairInput, TwoKVInput, StudyInput {
   std::filesystem::path file;
   std::string title;
+  std::string project, author;  ///< for the report
   double accuracy = 0;
   Fidelity fidelity = Fidelity::automatic;
   std::optional<std::string> reference;

@@ -42,7 +42,7 @@ struct ResultGroup {
 [[nodiscard]] Section key_results(const SystemRun& run, const std::vector<ResultGroup>& groups, const Text& conditions);
 /// The words that the results of a run use, each with an anchor that `key_results` links to.
 [[nodiscard]] Section definitions_section(const SystemRun& run);
-/// The same as lines of text.
+/// The most important ones as lines of text.
 [[nodiscard]] std::string key_results_text(const SystemRun& run);
 
 // plots.cc
@@ -102,14 +102,16 @@ template <class Subject>
 // run_page.cc
 /// What the page of a kind shows besides the sections that all kinds have.
 struct RunPage {
-  Text words;                       ///< line below the title
-  Blocks answer{};                  ///< what came out
-  std::vector<Section> results{};   ///< in front of the meshes
-  NamedMeshes meshes{};             ///< finite-element models
-  std::vector<Section> sections{};  ///< behind them
-  Blocks checks{};                  ///< of the responses
+  Text words;                          ///< line below the title
+  Blocks answer{};                     ///< what came out
+  std::vector<Section> results{};      ///< in front of the meshes
+  NamedMeshes meshes{};                ///< finite-element models
+  std::vector<Section> sections{};     ///< of the motion and the meshes, the most important first
+  std::vector<Section> geometry{};     ///< drawings
+  Blocks checks{};                     ///< of the responses
+  std::vector<std::string> choices{};  ///< kinds of meshes whose pictures are shown one at a time
 };
-/// Version and scene, these sections, then studies, model, inputs, checks and cost.
+/// Version and scene, results, spread, these sections, studies, bodies, geometry, model, inputs, checks and cost.
 [[nodiscard]] Page run_page(const SystemRun& run, const RunPage& page);
 /// Source, DOI and note of the published results.
 [[nodiscard]] Blocks source_blocks(const Reference& reference);
@@ -132,7 +134,7 @@ struct NamedOutcome {
 [[nodiscard]] Section contact_section(const NamedMeshes& meshes);  ///< face width, pressure, stress
 
 // studies.cc, sweeps.cc, grids.cc, spread.cc, sensitivity.cc, optimise.cc
-/// All studies, in their order on the page.
+/// All studies but the samples, in their order on the page.
 [[nodiscard]] std::vector<Section> study_sections(const Scene& scene, const StudyResults& studies);
 [[nodiscard]] Section sweeps_section(const Scene& scene, const StudyResults& studies);
 [[nodiscard]] Section grids_section(const Scene& scene, const StudyResults& studies);

@@ -32,6 +32,12 @@ std::string result_text(const FigureSpec& spec, const VariantFigures& variant) {
   return measured(entry->figure, spec.scale) + (of_motion && steady && steady->figure.value == 0 ? " †" : "");
 }
 
+/// A loss of contact that there is not.
+bool says_nothing(const FigureSpec& spec, const std::vector<VariantFigures>& variants) {
+  return spec.term == "contact_loss" &&
+         std::none_of(variants.begin(), variants.end(), [&](const auto& v) { return v.figures.value(spec.key) > 0; });
+}
+
 bool has_spread(const FigureSpec& spec, const std::vector<VariantFigures>& variants) {
   return std::any_of(variants.begin(), variants.end(), [&](const auto& v) {
     const auto* entry = v.figures.find(spec.key);
@@ -149,20 +155,9 @@ std::string with_unit(const std::string& text, const std::string& unit) {
 
 namespace {
 
-std::string sampled_words(const StudyResults& studies) {
-  if (!studies.monte_carlo) return {};
-  const auto& samples = *studies.monte_carlo;
-  return fmt::format("Median and quantiles are those of {} samples{}; the nominal inputs are those of the scene.",
-                     samples.samples,
-                     samples.by_default ? ", drawn because the scene does not state the phases of its errors" : "");
-}
-
-}  // namespace
-
-Section key_results(const SystemRun& run, const std::vector<ResultGroup>& groups, const Text& conditions) {
-  const auto variants = run.variants();
-  const auto specs = known_results(run, variants);
-  PageTable table{.head = {""}, .style = PageTable::Style::numbers};
+PageTable results_table(const std::vector<const FigureSpec*>& specs, const std::vector<VariantFigures>& variants,
+                        const std::vector<ResultGroup>& groups) {
+  PageTable table{.head = {"result"}, .style = PageTable::Style::numbers};
   for (const auto& name : column_names(variants)) table.head.emplace_back(name);
   const auto group_of = [&](const FigureSpec& spec) {
     return std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return spec.key.starts_with(g.prefix); });
@@ -184,15 +179,33 @@ Section key_results(const SystemRun& run, const std::vector<ResultGroup>& groups
     if (table.rows.size() > before && !group->heading.empty())
       table.rows.insert(table.rows.begin() + static_cast<std::ptrdiff_t>(before), std::vector<Text>{group->heading});
   }
-  if (table.rows.empty()) return {"figures", "Key results"};
+  return table;
+}
+
+std::string sampled_words(const StudyResults& studies) {
+  if (!studies.monte_carlo) return {};
+  const auto& samples = *studies.monte_carlo;
+  return fmt::format("Median and quantiles are those of {} samples{}; the nominal inputs are those of the scene.",
+                     samples.samples,
+                     samples.by_default ? ", drawn because the scene does not state the phases of its errors" : "");
+}
+
+}  // namespace
+
+Section key_results(const SystemRun& run, const std::vector<ResultGroup>& groups, const Text& conditions) {
+  const auto variants = run.variants();
+  const auto specs = known_results(run, variants);
+  auto important = specs;
+  std::erase_if(important, [&](const FigureSpec* spec) { return !spec->headline || says_nothing(*spec, variants); });
+  const auto table = results_table(important, variants, groups), all = results_table(specs, variants, groups);
+  if (all.rows.empty()) return {"figures", "Key results"};
   return {"figures", "Key results",
           paragraph(conditions +
                     "± is the estimated numerical error; it does not contain the uncertainty of the "
                     "inputs. " +
                     sampled_words(run.studies)) +
-              table + error_parts(specs, variants)};
+              table + details("All results", all) + error_parts(specs, variants)};
 }
-
 Section definitions_section(const SystemRun& run) {
   const auto specs = known_results(run, run.variants());
   Blocks blocks;
@@ -208,7 +221,8 @@ Section definitions_section(const SystemRun& run) {
 
 std::string key_results_text(const SystemRun& run) {
   const auto variants = run.variants();
-  const auto specs = known_results(run, variants);
+  auto specs = known_results(run, variants);
+  std::erase_if(specs, [&](const FigureSpec* spec) { return !spec->headline || says_nothing(*spec, variants); });
   const auto title_of = [&](const FigureSpec& spec) {
     return with_unit(spec.title, spec.unit) + (has_spread(spec, variants) ? spread_words : "");
   };

@@ -47,7 +47,8 @@ Section model_section(const Plan& plan) {
   return {"model", "What was modelled", blocks, "What was modelled, and why"};
 }
 
-Section inputs_section(const Plan& plan) {
+Section inputs_section(const SystemRun& run) {
+  const Plan& plan = run.plan;
   Blocks blocks;
   const Text assumed_tag = tag(Text::Look::assumed, "assumed");
   PageTable assumed{.head = {"assumed input", "value", "reason"}};
@@ -78,7 +79,11 @@ Section inputs_section(const Plan& plan) {
   };
   add_derived(plan.quantities, "");
   for (const auto& [ring, quantities] : plan.rings) add_derived(quantities, ring);
-  return {"inputs", "Inputs", blocks + details("All inputs with their origin, and what follows from them", all)};
+  Blocks record = Lines{run.scene.text};
+  if (!run.command.empty()) record = paragraph("Made by " + code(run.command) + ".") + record;
+  return {
+      "inputs", "Inputs",
+      blocks + details("All inputs with their origin, and what follows from them", all) + details("The scene", record)};
 }
 
 Blocks cost_blocks(const SystemRun& run) {
@@ -106,25 +111,31 @@ Blocks cost_blocks(const SystemRun& run) {
 Blocks warning_blocks(const SystemRun& run) {
   const auto warnings = run_warnings(run);
   if (warnings.empty()) return {};
-  List list;
+  List list, notes;
   for (const auto& w : warnings) {
     const auto look = w.severity == Severity::severe    ? Text::Look::disagrees
                       : w.severity == Severity::warning ? Text::Look::assumed
                                                         : Text::Look::undecided;
-    list.items.push_back(tag(look, to_text(w.severity)) + " " + (w.where.empty() ? Text() : bold(w.where) + ": ") +
+    (w.severity == Severity::note ? notes : list)
+        .items.push_back(tag(look, to_text(w.severity)) + " " + (w.where.empty() ? Text() : bold(w.where) + ": ") +
                          w.text + ".");
   }
-  return heading("Warnings", "warnings") + list;
+  Blocks blocks;
+  if (!list.items.empty()) blocks += heading("Warnings", "warnings") + list;
+  if (!notes.items.empty()) blocks += details(fmt::format("Notes ({})", notes.items.size()), notes);
+  return blocks;
 }
 
 Section pictures_section(const NamedMeshes& meshes) {
   Pictures pictures{.layout = Pictures::Layout::meshes};
   for (const auto& [title, mesh] : meshes) {
     if (mesh->picture.empty()) continue;
-    pictures.list.emplace_back(Drawing{mesh->picture}, title,
-                               mesh->model.fidelity.ends_with("solid")
-                                   ? "Fixed faces orange, driven flanks blue."
-                                   : "Planet blue; the fixed surface is orange; the circle marks the pitch point.");
+    auto& picture =
+        pictures.list.emplace_back(Drawing{mesh->picture}, title,
+                                   mesh->model.fidelity.ends_with("solid")
+                                       ? "Fixed faces orange, driven flanks blue."
+                                       : "Planet blue; the fixed surface is orange; the circle marks the pitch point.");
+    picture.ring = mesh->model.ring;
   }
   return {"meshes", "Meshes", pictures.list.empty() ? Blocks() : Blocks(pictures)};
 }
@@ -134,8 +145,8 @@ Section fields_section(const NamedMeshes& meshes) {
   for (const auto& [title, mesh] : meshes) {
     if (mesh->fields.empty()) continue;
     Pictures figure{.layout = Pictures::Layout::fields};
-    for (const auto& view : mesh->fields) figure.list.emplace_back(view);
-    views += heading(title) + figure;
+    for (const auto& view : mesh->fields) figure.list.emplace_back(view, title).ring = mesh->model.ring;
+    views += figure;
   }
   Section section{"fields", "Deformation and stress"};
   if (!views.empty())
@@ -197,16 +208,26 @@ Page run_page(const SystemRun& run, const RunPage& page) {
   Page made{.title = scene.title,
             .sub = phrase("annulus {} · scene {} · {}", version(), code(scene.file.filename().string()), page.words),
             .summary = page.answer + warning_blocks(run)};
+  if (!scene.project.empty()) made.sub = bold(scene.project) + " · " + made.sub;
+  for (const auto* more : {&scene.author, &run.date})
+    if (!more->empty()) made.sub += " · " + *more;
   for (const auto& sections : std::initializer_list<std::vector<Section>>{
            page.results,
-           {pictures_section(page.meshes), fields_section(page.meshes)},
+           {spread_section(run.studies)},
            page.sections,
            study_sections(scene, run.studies),
-           {model_section(run.plan),
-            inputs_section(run.plan),
+           {fields_section(page.meshes)},
+           page.geometry,
+           {pictures_section(page.meshes),
+            model_section(run.plan),
+            inputs_section(run),
             {"quality", "Checks and cost", mesh_checks(page.meshes) + page.checks + cost_blocks(run)},
             definitions_section(run)}})
     made.sections.insert(made.sections.end(), sections.begin(), sections.end());
+  // What decides stands open; the rest is a click away.
+  for (auto& section : made.sections) section.folded = section.anchor != "figures" && section.anchor != "spread";
+  for (const auto& variant : run.variants()) made.rings.push_back(variant.name);
+  made.meshes = page.choices;
   return made;
 }
 

@@ -30,7 +30,8 @@ std::string samples_id(const StudySubject& subject, std::size_t variant, const S
   id.add("response", subject.model({.where = "[monte_carlo]"}, variant)->id());
   id.add("seed", sampling.seed);
   for (const auto& input : scene.inputs) {
-    if (input.key == "title" || input.key == "reference" || is_study_table(input.key.substr(0, input.key.rfind('.'))))
+    if (input.key == "title" || input.key == "reference" || input.key.starts_with("report.") ||
+        is_study_table(input.key.substr(0, input.key.rfind('.'))))
       continue;
     const auto* number = std::get_if<double>(&input.value);
     const auto* list = std::get_if<std::vector<double>>(&input.value);

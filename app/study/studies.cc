@@ -7,6 +7,7 @@
 #include "app/model/gear_system.h"
 #include "app/scene/input_place.h"
 #include "core/errors.h"
+#include "core/stopwatch.h"
 
 namespace annulus::app {
 
@@ -69,11 +70,23 @@ StudyResults run_studies(const StudySubject& subject) {
   StudyResults results{.variants = subject.variants(), .figures = subject.figures()};
   for (std::size_t i = 0; i < results.variants.size(); ++i) results.nominal.push_back(subject.nominal(i));
   if (!scene.dynamics) return results;
-  for (std::size_t i = 0; i < scene.sweeps.size(); ++i) results.sweeps.push_back(run_sweep(subject, i));
-  for (std::size_t i = 0; i < scene.grids.size(); ++i) results.grids.push_back(run_grid(subject, i));
-  if (const auto sampling = sampling_of(scene)) results.monte_carlo = run_monte_carlo(subject, *sampling);
-  if (scene.optimise) results.optimise = run_optimise(subject);
-  if (scene.sensitivity) results.sensitivity = run_sensitivity(subject);
+  const auto& reuse = subject.options().reuse;
+  const auto reused = [&] { return reuse ? reuse->counted(study_responses).reused : 0; };
+  // Times are told where nothing was reused.
+  const auto timed = [&](const std::string& name, const auto& study) {
+    const auto before = reused();
+    const Stopwatch watch;
+    study();
+    if (reused() == before) results.seconds[name] = watch.seconds();
+  };
+  for (std::size_t i = 0; i < scene.sweeps.size(); ++i)
+    timed(fmt::format("[[sweep]] {}", i + 1), [&] { results.sweeps.push_back(run_sweep(subject, i)); });
+  for (std::size_t i = 0; i < scene.grids.size(); ++i)
+    timed(fmt::format("[[grid]] {}", i + 1), [&] { results.grids.push_back(run_grid(subject, i)); });
+  if (const auto sampling = sampling_of(scene))
+    timed("[monte_carlo]", [&] { results.monte_carlo = run_monte_carlo(subject, *sampling); });
+  if (scene.optimise) timed("[optimise]", [&] { results.optimise = run_optimise(subject); });
+  if (scene.sensitivity) timed("[sensitivity]", [&] { results.sensitivity = run_sensitivity(subject); });
   return results;
 }
 

@@ -15,7 +15,8 @@ FigureSpec steady_figure() {
           .title = "Periodic",
           .definition = "1 where a periodic steady state was found, otherwise 0",
           .term = "error_period",
-          .better = Better::larger};
+          .better = Better::larger,
+          .headline = true};
 }
 
 std::vector<FigureSpec> force_factor_figures(const std::string& prefix, const std::string& meshes,
@@ -30,6 +31,7 @@ std::vector<FigureSpec> force_factor_figures(const std::string& prefix, const st
            .term = "dynamic_factor",
            .better = Better::smaller,
            .quantity = "dynamic_factor",
+           .headline = true,
            .compared = true,
            .plotted = true,
            .spread = true,
@@ -44,6 +46,7 @@ std::vector<FigureSpec> force_factor_figures(const std::string& prefix, const st
            .better = Better::smaller,
            .guarantee = Guarantee::while_in_contact,
            .quantity = "peak_factor",
+           .headline = true,
            .compared = true,
            .cost_study = true,
            .spread = true}};
@@ -59,6 +62,7 @@ FigureSpec contact_loss_figure(const std::string& key, const std::string& title,
           .definition = definition,
           .term = "contact_loss",
           .better = Better::smaller,
+          .headline = true,
           .plotted = true};
 }
 
@@ -73,6 +77,7 @@ std::vector<FigureSpec> frequency_specs(int count, const std::string& definition
                     .effort = FigureEffort::motion,
                     .guarantee = Guarantee::always,
                     .digits = 5,
+                    .headline = i <= 3,
                     .compared = i <= 5,
                     .cost_study = i <= 3});
   return list;

@@ -83,11 +83,14 @@ BOOST_AUTO_TEST_CASE(a_pair_runs_from_scene_to_report) {
   const auto report = read_file(folder.path() / "report.html");
   for (const auto* anchor : {"figures", "conclusions", "errors", "shares", "stiffness", "motion", "modes", "spread",
                              "sweeps", "grids", "sensitivity", "model", "inputs", "quality"})
-    BOOST_TEST(report.find("<h2 id=\"" + std::string(anchor) + "\"") != std::string::npos, anchor);
+    BOOST_TEST(report.find(" id=\"" + std::string(anchor) + "\"") != std::string::npos, anchor);
   // A page of its own: nothing is fetched.
   BOOST_TEST(report.find("http://") == report.find("http://www.w3.org/2000/svg"));
   BOOST_TEST(report.find("<script src") == std::string::npos);
-  BOOST_TEST(report.find("nan") == std::string::npos);
+  std::string words = report;  // without what is packed
+  for (std::size_t at; (at = words.find("<script")) != std::string::npos;)
+    words.erase(at, words.find("</script>", at) - at + 9);
+  BOOST_TEST(words.find("nan") == std::string::npos);
 
   // The draws themselves: their quantile is the one reported.
   auto envelope = csv_column(folder.path() / "errors/samples.csv", "pinion_x1_m");
@@ -282,7 +285,7 @@ BOOST_AUTO_TEST_CASE(the_program_takes_pairs) {
   BOOST_TEST(read_file(log).find("ISO 6336-1, method B") != std::string::npos);
   BOOST_TEST(status(test::quick_pair(), "solve -q " + file + out) == 0);
   BOOST_TEST(status(test::quick_pair(), "dynamics -q " + file + out) == 0);
-  BOOST_TEST(status(test::quick_pair(), "run -q " + file + out) == 0);
+  BOOST_TEST(status(test::quick_pair(), "run " + file + out) == 0);
   BOOST_TEST(std::regex_search(read_file(log), std::regex("nominal inputs +137\\.9")));
   BOOST_TEST(status(test::replaced(test::quick_pair(), "teeth = 37", "teeth = 3"), "check " + file) == 2);
   BOOST_TEST(read_file(log).find("pair.toml:20:1: wheel.teeth = 3: must be in range") != std::string::npos,

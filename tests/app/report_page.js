@@ -98,7 +98,7 @@ function useChart(plot, chart, name) {
 }
 
 function usePlot(box) {
-  const plot = JSON.parse(box.querySelector('script').textContent), name = plot.title || kindOf(plot);
+  const plot = annulus.numbers(box), name = plot.title || kindOf(plot);
   ++result.plots;
   ++result[kindOf(plot)];
   expect(box.querySelector('svg').getBoundingClientRect().height > 30, name + ': no picture before');
@@ -119,7 +119,7 @@ function usePlot(box) {
 
 function turnBody(box) {
   ++result.bodies;
-  const body = JSON.parse(box.querySelector('script').textContent);
+  const body = box.body();
   const vertices = body.place_mm.length / 3;
   expect(vertices > 50 && body.displacement_mm.length === 3 * vertices && body.stress_MPa.length === vertices, 'sizes');
   expect(body.faces.length % 4 === 0 && Math.max(...body.faces) < vertices, 'faces');
@@ -145,6 +145,17 @@ function turnBody(box) {
 
 window.addEventListener('load', () => {
   try {
+    const folds = [...document.querySelectorAll('details.section')];
+    result.folds = folds.length;
+    result.packed = document.querySelectorAll('script.picture').length;
+    result.wide = document.documentElement.scrollWidth > document.documentElement.clientWidth;
+    result.screens = document.querySelector('main').scrollHeight / 900;
+    folds.forEach(annulus.open);
+    for (const select of document.querySelectorAll('select')) {
+      select.value = '';
+      select.dispatchEvent(new Event('change'));
+    }
+    expect(document.querySelectorAll('script.picture').length === 0, 'pictures are still packed');
     for (const box of document.querySelectorAll('.plot')) usePlot(box);
     for (const box of document.querySelectorAll('.view3d')) turnBody(box);
     const swinging = document.querySelectorAll('.swing');

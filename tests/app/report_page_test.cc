@@ -18,7 +18,7 @@ namespace annulus {
 namespace {
 
 /// What report_page.js saw of a page.
-nlohmann::json used_in_browser(const std::filesystem::path& folder, std::string page) {
+nlohmann::json used_in_browser(const std::filesystem::path& folder, std::string page, int width = 1400) {
   const auto end = page.rfind("</body>");
   BOOST_REQUIRE(end != std::string::npos);
   page.insert(end, "<script>" + read_file(ANNULUS_SOURCE_DIR "/tests/app/report_page.js") + "</script>");
@@ -27,10 +27,10 @@ nlohmann::json used_in_browser(const std::filesystem::path& folder, std::string 
   const auto command = fmt::format(
       "cd '{0}' && timeout 400 chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
       "--disable-dev-shm-usage "
-      "--user-data-dir='{0}/profile' --window-size=1400,1000 --virtual-time-budget=20000 --dump-dom "
+      "--user-data-dir='{0}/profile' --window-size={1},1000 --virtual-time-budget=20000 --dump-dom "
       "'file://{0}/used.html' "
       ">dom.html 2>chromium.txt",
-      folder.string());
+      folder.string(), width);
   BOOST_REQUIRE(std::system(command.c_str()) == 0);
   const auto dom = read_file(folder / "dom.html");
   const std::string head = "<pre id=\"result\">";
@@ -142,10 +142,28 @@ BOOST_AUTO_TEST_CASE(deformed_bodies_can_be_turned) {
 BOOST_AUTO_TEST_CASE(deformed_pairs_can_be_turned) {
   const test::TemporaryFolder folder("report_page_pair_fields");
   const auto page = written_page(folder.path(), "solve", test::solved_pair());
-  for (const char* name : {"Deformed pinion", "Deformed wheel"}) BOOST_TEST(page.find(name) != std::string::npos, name);
+  std::string pictures;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out" / "pictures"))
+    pictures += entry.path().filename().string() + "\n";
+  for (const char* name : {"deformed_pinion", "deformed_wheel"})
+    BOOST_TEST(pictures.find(name) != std::string::npos, pictures);
   const auto used = used_in_browser(folder.path(), page);
   BOOST_TEST(used["bodies"].get<int>() == 2);
   for (const char* what : {"shown", "turned", "undeformed"}) BOOST_TEST(used[what].get<int>() == 2, what);
+}
+
+// What decides is open, the rest folded: few screens, a small page, and no scrolling sideways on a phone.
+BOOST_AUTO_TEST_CASE(pages_are_short_and_small) {
+  const test::TemporaryFolder folder("report_page_size");
+  const auto page = written_page(folder.path(), "run", test::quick_scene());
+  constexpr std::size_t most = 1'500'000;
+  BOOST_TEST(page.size() < most);
+  for (const auto& [width, least_folds] : {std::pair{1400, 5}, {500, 5}}) {
+    const auto used = used_in_browser(folder.path(), page, width);
+    BOOST_TEST(used["folds"].get<int>() >= least_folds);
+    BOOST_TEST(!used["wide"].get<bool>(), width);
+    if (width > 1000) BOOST_TEST(used["screens"].get<double>() <= 8);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(what_a_scene_says_stays_text) {

@@ -33,8 +33,8 @@ inline std::map<std::string, std::string> results_in(const std::filesystem::path
   std::map<std::string, std::string> results;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
     const auto place = entry.path().lexically_relative(out);
-    if (!entry.is_regular_file() || *place.begin() == "cache" || place == "run.json" || place == "owner.txt" ||
-        place == "report.html" || is_unfinished(place))
+    if (!entry.is_regular_file() || *place.begin() == "cache" || place == "run.json" || place == "run.log" ||
+        place == "owner.txt" || place == "report.html" || is_unfinished(place))
       continue;
     auto text = read_file(entry.path());
     if (place.extension() == ".csv") text = std::regex_replace(text, times, "");

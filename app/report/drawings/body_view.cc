@@ -171,8 +171,32 @@ std::string to_svg(const BodyView& view) {
   return to_svg(picture);
 }
 
+namespace {
+
+/// Numbers in whole steps of a unit, each as the difference to the one `stride` before: they pack to a third.
+template <class Values>
+nlohmann::json in_steps(const Values& values, double unit, std::size_t stride) {
+  std::vector<long> steps(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) steps[i] = std::lround(static_cast<double>(values[i]) / unit);
+  for (std::size_t i = steps.size(); i-- > stride;) steps[i] -= steps[i - stride];
+  return {{"unit", unit}, {"stride", stride}, {"steps", steps}};
+}
+
+double step_of(const std::vector<double>& values, double steps) {
+  double largest = 0;
+  for (const double v : values) largest = std::max(largest, std::abs(v));
+  return largest > 0 ? largest / steps : 1;
+}
+
+}  // namespace
+
 nlohmann::json view_data(const BodyView& view) {
+  constexpr double screen = 20'000, shades = 1000;  // finer than any screen, and than any eye
   nlohmann::json data = view;
+  data["place_mm"] = in_steps(view.place_mm, step_of(view.place_mm, screen), 3);
+  data["displacement_mm"] = in_steps(view.displacement_mm, step_of(view.displacement_mm, shades), 3);
+  data["stress_MPa"] = in_steps(view.stress_MPa, step_of(view.stress_MPa, shades), 1);
+  data["faces"] = in_steps(view.faces, 1, 4);
   data["colours"] = scale_colours(Ways::one);
   return data;
 }

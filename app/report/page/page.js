@@ -184,8 +184,8 @@
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   }
 
-  for (const box of document.querySelectorAll('.plot')) {
-    const plot = JSON.parse(box.querySelector('script').textContent);
+  annulus.make('.plot', (box) => {
+    const plot = annulus.numbers(box);
     const svg = box.querySelector('svg');
     const name = (plot.title || 'plot').replace(/[^A-Za-z0-9]+/g, '_');
     const button = (label, does) => {
@@ -214,5 +214,5 @@
     box.addEventListener('focusin', wake);
     box.tabIndex = 0;
     box.plotCsv = () => csv(plot);
-  }
+  });
 })();

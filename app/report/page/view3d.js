@@ -3,6 +3,16 @@
   'use strict';
   if (typeof THREE === 'undefined') return;
 
+  /// Lists as they were before they were put into steps.
+  function decoded(body) {
+    for (const list of ['place_mm', 'displacement_mm', 'stress_MPa', 'faces']) {
+      const {unit, stride, steps} = body[list];
+      for (let i = stride; i < steps.length; ++i) steps[i] += steps[i - stride];
+      body[list] = steps.map((step) => unit * step);
+    }
+    return body;
+  }
+
   function surface(body) {
     const colours = body.colours.map((c) => new THREE.Color(c));
     const rgb = body.stress_MPa.flatMap((s) => {
@@ -64,6 +74,22 @@
     controls.update();
     const draw = () => renderer.render(scene, camera);
     controls.addEventListener('change', draw);
+    // Arrow keys rotate by a twentieth of a turn.
+    const canvas = renderer.domElement;
+    canvas.tabIndex = 0;
+    canvas.setAttribute('role', 'img');
+    canvas.setAttribute('aria-label', svg.getAttribute('aria-label') + ', rotated by the arrow keys');
+    canvas.addEventListener('keydown', (event) => {
+      const turn = {ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
+      if (!turn) return;
+      event.preventDefault();
+      const offset = camera.position.clone().sub(controls.target), at = new THREE.Spherical().setFromVector3(offset);
+      at.theta += turn[0] * Math.PI / 10;
+      at.phi = Math.min(Math.max(at.phi - turn[1] * Math.PI / 10, 0.01), Math.PI - 0.01);
+      camera.position.copy(controls.target).add(offset.setFromSpherical(at));
+      controls.update();
+      draw();
+    });
 
     const slider = document.createElement('input');
     slider.type = 'range';
@@ -77,7 +103,7 @@
     });
     const label = document.createElement('label');
     label.className = 'tools shown';
-    label.append('displacement ', slider, ' · drag: rotate · wheel: zoom · right button: shift');
+    label.append('displacement ', slider, ' · drag or arrow keys: rotate · wheel: zoom · right button: shift');
     box.insertBefore(renderer.domElement, svg);
     box.append(label);
     box.classList.add('awake');
@@ -85,7 +111,7 @@
     return {renderer, scene, camera, controls, slider, draw, geometry};
   }
 
-  for (const box of document.querySelectorAll('.view3d')) {
+  annulus.make('.view3d', (box) => {
     const button = document.createElement('button');
     button.type = 'button';
     button.className = 'turn';
@@ -93,12 +119,13 @@
     button.addEventListener('click', () => {
       if (box.view) return;
       try {
-        box.view = makeView(box, JSON.parse(box.querySelector('script').textContent));
+        box.view = makeView(box, box.body());
         button.remove();
       } catch (error) {
         button.textContent = 'this browser has no WebGL: ' + error.message;
       }
     });
     box.append(button);
-  }
+    box.body = () => decoded(annulus.numbers(box));
+  });
 })();

@@ -99,6 +99,77 @@ Scene with_accuracy(const Scene& scene, double accuracy, const std::string& note
   return changed;
 }
 
+namespace {
+
+/// Puts the value of a TOML key `x` under a name.
+void put(toml::table& table, const std::string& name, const toml::table& value) {
+  value.get("x")->visit([&](const auto& node) { table.insert_or_assign(name, node); });
+}
+
+toml::table value_of_setting(const std::string& text) {
+  try {
+    return toml::parse("x = " + text);
+  } catch (const toml::parse_error&) {
+    return toml::table{{"x", text}};
+  }
+}
+
+[[noreturn]] void refuse_setting(const std::string& setting, const std::string& why) {
+  throw InputError("--set " + setting + ": " + why);
+}
+
+void apply_setting(toml::table& root, const std::string& setting) {
+  const auto equal = setting.find('=');
+  if (equal == std::string::npos) refuse_setting(setting, "must be KEY=VALUE");
+  const auto trimmed = [](std::string text) {
+    const auto begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
+    return begin == std::string::npos ? std::string() : text.substr(begin, end - begin + 1);
+  };
+  const auto path = trimmed(setting.substr(0, equal)), text = trimmed(setting.substr(equal + 1));
+  const auto value = value_of_setting(text);
+  const auto dot = path.rfind('.');
+  const auto name = dot == std::string::npos ? path : path.substr(dot + 1);
+  auto head = dot == std::string::npos ? std::string() : path.substr(0, dot);
+  const bool ring = head == "ring" || head.starts_with("ring.");
+  const auto ring_name = ring && head.size() > 5 ? head.substr(5) : std::string();
+  if (ring) head = "ring";
+  const auto key = head.empty() ? name : head + "." + name;
+  if (!find_parameter(key)) refuse_setting(setting, "there is no such key" + did_you_mean(key, all_keys()));
+  const auto* declared = find_table(head);
+  if (ring) {
+    auto* rings = root["ring"].as_array();
+    bool found = false;
+    for (std::size_t i = 0; rings != nullptr && i < rings->size(); ++i) {
+      auto* table = rings->get(i)->as_table();
+      if (table == nullptr || (!ring_name.empty() && (*table)["name"].value_or(std::string()) != ring_name)) continue;
+      put(*table, name, value);
+      found = true;
+    }
+    if (!found) refuse_setting(setting, "the scene has no such [[ring]]");
+    return;
+  }
+  if (declared->repeated) refuse_setting(setting, declared->header() + " are several; edit the scene");
+  toml::table* table = &root;
+  std::istringstream parts(head);
+  for (std::string part; std::getline(parts, part, '.');) {
+    table->insert(part, toml::table{});  // unless there is one
+    table = table->get(part)->as_table();
+    if (table == nullptr) refuse_setting(setting, part + " is no table in the scene");
+  }
+  put(*table, name, value);
+}
+
+}  // namespace
+
+Scene read_scene_with(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  if (settings.empty()) return read_scene(file);
+  auto root = parse_toml(text_of_file(file), file.string());
+  for (const auto& setting : settings) apply_setting(root, setting);
+  Scene scene = read_tables(root, file);
+  scene.text = text_of(root);
+  return scene;
+}
+
 std::string scene_text(const Scene& scene, const std::vector<Override>& overrides) {
   toml::table root = changed_root(scene, overrides);
   root.erase("reference");  // its path is relative to the original

@@ -87,7 +87,7 @@ double worst(const MeshResult& a, const MeshResult& b, const std::string& fact) 
   return std::isnan(y) ? x : std::max(x, y);
 }
 
-Json ring_json(const Scene& scene, const RingResult& ring, const MeshResult& sun_mesh) {
+Json ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
   Json json = {
       {"model", ring.mesh.model.fidelity}, {"ring_planet", mesh_json(ring.mesh)}, {"sun_planet", mesh_json(sun_mesh)}};
   json["invariants"] = {{"force_balance_relative", json_number(worst(ring.mesh, sun_mesh, "force_balance_relative"))},
@@ -139,7 +139,7 @@ Json stage_summary(const RunResult& result) {
                  {"mesh_frequency_Hz", point.mesh_frequency},
                  {"mean_mesh_force_N", point.mean_mesh_force}}}};
   for (std::size_t i = 0; i < result.rings.size(); ++i) {
-    auto& entry = json["rings"][result.rings[i].name] = ring_json(result.scene, result.rings[i], result.sun_mesh);
+    auto& entry = json["rings"][result.rings[i].name] = ring_json(result.rings[i], result.sun_mesh);
     entry.update(variant_studies_json(result.studies, i));
   }
   return json;

@@ -18,7 +18,7 @@ std::vector<FigureSpec> declared() {
   std::vector<FigureSpec> list;
   auto tooth = acceleration("acceleration_max_m_per_s2", "Largest acceleration of the teeth",
                             "largest over time and both gears of |(u'' ± y'', z'')| of the teeth in mesh");
-  tooth.compared = tooth.cost_study = tooth.plotted = tooth.spread = tooth.ordering = true;
+  tooth.headline = tooth.compared = tooth.cost_study = tooth.plotted = tooth.spread = tooth.ordering = true;
   list.push_back(tooth);
   list.push_back(acceleration("acceleration_line_of_action_m_per_s2",
                               "Largest acceleration of the axes along the line of action",
@@ -33,6 +33,7 @@ std::vector<FigureSpec> declared() {
                   .scale = 1e-3,
                   .definition = "largest mesh force over time, in the direction of the load",
                   .better = Better::smaller,
+                  .headline = true,
                   .compared = true,
                   .plotted = true,
                   .spread = true});
@@ -53,7 +54,7 @@ std::vector<FigureSpec> declared() {
   list.push_back(largest);
   auto range =
       length("transmission_error_peak_to_peak_m", "Transmission error, peak to peak", "range over time of u_1 + u_2");
-  range.compared = range.cost_study = range.plotted = range.spread = range.ordering = true;
+  range.headline = range.compared = range.cost_study = range.plotted = range.spread = range.ordering = true;
   range.beside = "transmission_error_static_peak_to_peak_m";
   list.push_back(range);
   list.push_back(length("transmission_error_mean_m", "Transmission error, mean", "mean over time of u_1 + u_2"));

@@ -31,7 +31,7 @@ void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, co
   auto averaged = share("averaged", "averaged over a mesh cycle",
                         "mesh cycles of N |F_n| / Σ|F|, the forces averaged over the mesh cycle first");
   averaged.symbol = "K_γ";
-  averaged.plotted = averaged.ordering = true;
+  averaged.plotted = averaged.ordering = averaged.headline = true;
   averaged.beside = prefix + "load_sharing_quasi_static";
   auto instantaneous = share("instantaneous", "instantaneous", "instants of N |F_n| / Σ|F|");
   averaged.cost_study = instantaneous.cost_study = sun;

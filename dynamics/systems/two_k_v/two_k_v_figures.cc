@@ -40,6 +40,7 @@ void declare_statics(std::vector<FigureSpec>& list) {
                   .term = "torsional_stiffness",
                   .better = Better::larger,
                   .digits = 5,
+                  .headline = true,
                   .compared = true,
                   .plotted = true,
                   .spread = true,
@@ -57,7 +58,7 @@ void declare_statics(std::vector<FigureSpec>& list) {
   list.push_back(wind_up);
   auto lost = angle("lost_motion_rad", "Lost motion of the output",
                     "turn of the output between -3 % and +3 % of its torque, the input held, backlash included");
-  lost.spread = true;
+  lost.spread = lost.headline = true;
   list.push_back(lost);
 }
 
@@ -67,7 +68,7 @@ void declare_motion(std::vector<FigureSpec>& list) {
                      "range over the window of θ_output - θ_input / ratio");
   error.axis = "peak to peak, arc seconds";
   error.effort = FigureEffort::motion;
-  error.compared = error.cost_study = error.plotted = error.ordering = true;
+  error.headline = error.compared = error.cost_study = error.plotted = error.ordering = true;
   error.beside = "output_error_quasi_static_rad";
   list.push_back(error);
   auto still = angle("output_error_quasi_static_rad", "Error of the output, quasi-static",

@@ -1,9 +1,13 @@
+#include <fmt/format.h>
+
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "app/sections/report_parts.h"
+#include "core/files.h"
+#include "core/json.h"
 #include "core/stiffness_table.h"
 
 namespace {
@@ -17,9 +21,9 @@ struct RingTypes {
                                 "/data/scenes/ring_types.toml --quiet --threads 2 -o " + out.string() + " > /dev/null";
     return std::system(command.c_str());
   }
-  nlohmann::json summary() const {
+  annulus::Json summary() const {
     std::ifstream file(out / "summary.json");
-    return nlohmann::json::parse(file);
+    return annulus::Json::parse(file);
   }
 };
 
@@ -27,13 +31,13 @@ struct Bar {
   double value = 0, error = 0;
 };
 
-Bar stiffness(const nlohmann::json& ring) {
+Bar stiffness(const annulus::Json& ring) {
   const auto& k = ring.at("ring_planet").at("mean_stiffness_N_per_m");
   const double value = k.at("value");
   return {value, value * k.at("error_relative").get<double>()};
 }
 
-Bar sharing(const nlohmann::json& ring) {
+Bar sharing(const annulus::Json& ring) {
   const auto& l = ring.at("load_sharing").at("sun_planet").at("averaged");
   return {l.at("value"), l.at("error")};
 }
@@ -74,6 +78,21 @@ BOOST_AUTO_TEST_CASE(scene_to_report) {
       BOOST_TEST(ring.at(mesh).at("worst_error_relative").get<double>() <= summary.at("accuracy_wanted").get<double>());
       BOOST_TEST(ring.at(mesh).at("worst_scaled_jacobian").get<double>() > 0.3);
     }
+  }
+
+  // What the README prints is what this run gives.
+  const auto readme = annulus::read_file(ANNULUS_SOURCE_DIR "/README.md");
+  for (const auto& variant : summary.at("variants")) {
+    const auto figures = annulus::figure_set_of(variant.at("figures"));
+    const auto error = [&](const char* key, double scale) {
+      return annulus::app::measured(figures.figure(key), scale);
+    };
+    const auto spread = [&](const char* key) { return annulus::app::spread_text(*figures.find(key)->spread, 1); };
+    const auto row =
+        fmt::format("| {} | {} | {} | {} | {} |", error("ring_planet_mean_stiffness_N_per_m", 1e-6),
+                    error("ring_planet_lte_peak_to_peak_m", 1e6), spread("sun_planet_load_sharing_averaged"),
+                    spread("sun_planet_dynamic_factor"), spread("sun_planet_peak_factor"));
+    BOOST_TEST(readme.find(row) != std::string::npos, row);
   }
 
   // Every tooth of 27 is another place between four of the 24 pins: as many stiff places as pins.

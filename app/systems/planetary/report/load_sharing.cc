@@ -11,34 +11,38 @@ namespace annulus::app {
 
 namespace {
 
+/// One plot per ring and kind of mesh, of which a reader sees those of the chosen ones.
+Pictures of_both_meshes(const RunResult& result, PlanetLines shown, const Text& caption) {
+  Pictures all{.legend = planet_legend(result.scene.stage.planets), .caption = caption};
+  for (const auto& [mesh, words] : {std::pair{sun_planet, sun_meshes}, {ring_planet, ring_meshes}}) {
+    shown.mesh = mesh;
+    for (auto& picture : planet_lines(result, shown, {}).list) {
+      picture.mesh = words;
+      all.list.push_back(std::move(picture));
+    }
+  }
+  return all;
+}
+
 Blocks planets_over_time(const RunResult& result) {
-  struct Shown {
-    const char *mesh, *words;
-  };
   const std::string cut =
       fmt::format(" Windows longer than {:.0f} mesh cycles are cut here; the files hold them whole.", shown_cycles);
-  const Text first_cycles = "The first six mesh cycles of the window, at full resolution.";
-  constexpr const char *share = "N F / Σ|F|", *factor = "F / nominal force", *cycle_factor = "|F| / mean of the cycle";
-  Blocks blocks;
-  for (const auto& [mesh, words] : {Shown{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}})
-    blocks += heading(std::string("Load sharing of the ") + words) +
-              planet_lines(result, {&StageResponse::load_sharing, mesh, "_averaged", "", "", share},
-                           "Each planet's part of the power, forces averaged over a mesh cycle. The load-sharing "
-                           "factor is the highest point." +
-                               cut) +
-              planet_lines(result, {&StageResponse::sharing_waveform, mesh, "", "", "", share, 6}, first_cycles);
-  for (const auto& [mesh, words] : {Shown{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}})
-    blocks += heading(std::string("Dynamic and peak factor of the ") + words) +
-              planet_lines(result, {&StageResponse::force_factors, mesh, "_dynamic_factor", "", "", cycle_factor},
-                           "Largest force of each mesh cycle over the mean force of that cycle: K_V is the highest "
-                           "point." +
-                               cut) +
-              planet_lines(result, {&StageResponse::force_factors, mesh, "_largest", "_smallest", "_largest", factor},
-                           "Line: largest force of each mesh cycle over the nominal force, whose highest point is the "
-                           "peak factor K_γ K_V; band: down to the smallest force." +
-                               cut) +
-              planet_lines(result, {&StageResponse::waveform, mesh, "", "", "", factor, 6}, first_cycles);
-  return blocks;
+  return heading("Load sharing") +
+         of_both_meshes(
+             result, {&StageResponse::load_sharing, "", "_averaged", "", "", "N F / Σ|F|"},
+             "Each planet's part of the power, forces averaged over a mesh cycle. The load-sharing factor is "
+             "the highest point." +
+                 cut) +
+         heading("Peak factor") +
+         of_both_meshes(
+             result, {&StageResponse::force_factors, "", "_largest", "_smallest", "_largest", "F / nominal force"},
+             "Line: largest force of each mesh cycle over the nominal force, whose highest point is the peak "
+             "factor; band: down to the smallest force. force_factors.csv holds the dynamic factor of every "
+             "mesh cycle." +
+                 cut) +
+         heading("Forces") +
+         of_both_meshes(result, {&StageResponse::waveform, "", "", "", "", "F / nominal force", 6},
+                        "The first six mesh cycles of the window, at full resolution.");
 }
 
 PageTable factors_table(const RunResult& result) {
@@ -71,41 +75,49 @@ std::string order_text(const dynamics::SpectralLine& line) {
   return fmt::format("{} {} {}", line.harmonic, line.sideband < 0 ? "−" : "+", distance);
 }
 
-Blocks spectra(const RunResult& result, const char* mesh) {
+Blocks spectra(const RunResult& result) {
   constexpr int listed = 4;
-  std::vector<Plot> plots;
+  Pictures pictures{.caption =
+                        fmt::format("Force of planet 1 without its mean. Order 1 is the mesh frequency, {:.1f} Hz; "
+                                    "lines beside whole orders are sidebands of the errors.",
+                                    result.geometry.operating_point.mesh_frequency)};
   PageTable table{.head = {"highest lines"}, .style = PageTable::Style::numbers};
-  for (int i = 0; i < listed; ++i) table.rows.push_back({fmt::format("{}", i + 1)});
-  double highest = 0;
-  for (const auto& [name, response] : responses_of(result)) {
-    const auto spectrum = spectrum_of(*response, std::string(mesh) + "1");
-    const auto lines = dynamics::highest_lines(spectrum, listed);
-    table.head.emplace_back(name);
-    for (std::size_t i = 0; i < listed; ++i)
-      table.rows[i].push_back(
-          i < lines.size() ? phrase("{:.2f} kN {}", lines[i].amplitude / 1e3, muted("at " + order_text(lines[i])))
-                           : Text());
-    if (spectrum.order.size() < 2) continue;
-    const Eigen::VectorXd kilonewton =
-        spectrum.amplitude.tail(spectrum.amplitude.size() - 1) / 1e3;  // without the mean
-    const auto order = spectrum.order.tail(kilonewton.size());
-    highest = std::max(highest, kilonewton.maxCoeff());
-    plots.push_back({.title = name,
-                     .x_label = "order, multiples of the mesh frequency",
-                     .y_label = "amplitude, kN",
-                     .x_range = Range{0, order[order.size() - 1]},
-                     .series = {{.label = "planet 1",
-                                 .x = {order.begin(), order.end()},
-                                 .y = {kilonewton.begin(), kilonewton.end()},
-                                 .style = Series::Style::bars}}});
+  for (const auto& [name, response] : responses_of(result)) table.head.emplace_back(name);
+  for (const auto& [mesh, words] : {std::pair{sun_planet, sun_meshes}, {ring_planet, ring_meshes}}) {
+    const auto first = table.rows.size();
+    table.rows.push_back({words});
+    for (int i = 0; i < listed; ++i) table.rows.push_back({fmt::format("{}", i + 1)});
+    std::vector<Plot> plots;
+    double highest = 0;
+    for (const auto& [name, response] : responses_of(result)) {
+      const auto spectrum = spectrum_of(*response, std::string(mesh) + "1");
+      const auto lines = dynamics::highest_lines(spectrum, listed);
+      for (std::size_t i = 0; i < listed; ++i)
+        table.rows[first + 1 + i].push_back(
+            i < lines.size() ? phrase("{:.2f} kN {}", lines[i].amplitude / 1e3, muted("at " + order_text(lines[i])))
+                             : Text());
+      if (spectrum.order.size() < 2) continue;
+      // Without the mean.
+      const Eigen::VectorXd kilonewton = spectrum.amplitude.tail(spectrum.amplitude.size() - 1) / 1e3;
+      const auto order = spectrum.order.tail(kilonewton.size());
+      highest = std::max(highest, kilonewton.maxCoeff());
+      plots.push_back({.title = name,
+                       .x_label = "order, multiples of the mesh frequency",
+                       .y_label = "amplitude, kN",
+                       .x_range = Range{0, order[order.size() - 1]},
+                       .series = {{.label = "planet 1",
+                                   .x = {order.begin(), order.end()},
+                                   .y = {kilonewton.begin(), kilonewton.end()},
+                                   .style = Series::Style::bars}}});
+    }
+    for (auto& plot : plots) {
+      plot.y_range = Range{0, 1.08 * highest};
+      auto& picture = pictures.list.emplace_back(plot);
+      picture.ring = plot.title;
+      picture.mesh = words;
+    }
   }
-  for (auto& plot : plots) plot.y_range = Range{0, 1.08 * highest};
-  return Pictures{{plots.begin(), plots.end()},
-                  {},
-                  fmt::format("Force of planet 1 without its mean. Order 1 is the mesh frequency, {:.1f} Hz; lines "
-                              "beside whole orders are sidebands of the errors.",
-                              result.geometry.operating_point.mesh_frequency)} +
-         table;
+  return pictures + table;
 }
 
 }  // namespace
@@ -128,15 +140,16 @@ Pictures planet_lines(const RunResult& result, const PlanetLines& shown, const T
     plots.push_back(line_plot(frame, shown.table(*response),
                               {.x = "mesh_cycle", .y_scale = shown.scale, .rows_to = shown.cycles}, lines));
   }
-  return {on_one_scale(plots), planet_legend(planets), caption};
+  auto list = on_one_scale(plots);
+  for (std::size_t i = 0; i < list.size(); ++i) list[i].ring = plots[i].title;
+  return {std::move(list), planet_legend(planets), caption};
 }
 
 Section dynamics_section(const RunResult& result) {
   Section section{"dynamics", "Load sharing, dynamic and peak factors", paragraph("Not asked for.")};
   if (responses_of(result).empty()) return section;
-  section.blocks = planets_over_time(result) + heading("Dynamic and peak factor of every planet") +
-                   factors_table(result) + heading("Spectrum of the mesh forces") + paragraph("Sun mesh") +
-                   spectra(result, sun_planet) + paragraph("Ring mesh") + spectra(result, ring_planet);
+  section.blocks = planets_over_time(result) + heading("Spectrum of the mesh forces") + spectra(result) +
+                   heading("Dynamic and peak factor of every planet") + factors_table(result);
   return section;
 }
 

@@ -47,20 +47,21 @@ Page stage_report(const RunResult& result) {
       {.words = fmt::format("{} planets, {} kW at {} r/min of the sun", scene.stage.planets,
                             to_text(scene.stage.power / 1e3), to_text(point.sun_speed / units::rpm, 6)),
        .answer = stage_verdict(result),
-       .results = {drawings_section(result),
-                   key_results(
+       .results = {key_results(
                        result, {{"ring_planet_", "Ring meshes"}, {"sun_planet_", "Sun meshes"}, {"", "Stage"}},
                        fmt::format("At the nominal mesh force of {} kN. ", to_text(point.mean_mesh_force / 1e3, 5))),
                    comparison_section(result)},
        .meshes = meshes,
-       .sections = {{"stiffness", "Transmission error and stiffness", stiffness_blocks(meshes)},
+       .sections = {dynamics_section(result),
+                    motion_section(result),
                     supports_section(result),
                     contact_section(meshes),
-                    dynamics_section(result),
+                    {"stiffness", "Transmission error and stiffness", stiffness_blocks(meshes)},
                     coupling_section(result),
-                    motion_section(result),
                     modes_section(result)},
-       .checks = response_checks(result)});
+       .geometry = {drawings_section(result)},
+       .checks = response_checks(result),
+       .choices = {sun_meshes, ring_meshes}});
 }
 
 }  // namespace annulus::app

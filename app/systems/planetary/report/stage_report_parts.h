@@ -24,6 +24,9 @@ using NamedResponses = std::vector<std::pair<std::string, const StageResponse*>>
 
 // load_sharing.cc
 /// A line per planet in a plot per ring, all on one scale, read from a table of the response over its mesh cycles.
+/// Names of the kinds of meshes, for the reader's choice.
+inline constexpr const char *sun_meshes = "sun meshes", *ring_meshes = "ring meshes";
+
 struct PlanetLines {
   std::function<const Csv&(const StageResponse&)> table;
   std::string mesh, line{}, low{}, high{};  ///< of the columns: head, and tails behind the number of the planet
