@@ -99,9 +99,9 @@ class BlockWriter {
   }
 
   std::string written(const PageTable& table) {
-    std::string text = "<div class=\"wide\"><table";
+    std::string text = "<div class=\"wide\" tabindex=\"0\"><table";
     text += table.style == PageTable::Style::numbers ? " class=\"numbers\"><tr>" : "><tr>";
-    for (const auto& cell : table.head) text += "<th>" + app::html(cell) + "</th>";
+    for (const auto& cell : table.head) text += cell.empty() ? "<td></td>" : "<th>" + app::html(cell) + "</th>";
     text += "</tr>\n";
     for (const auto& row : table.rows) {
       text += "<tr>";

@@ -38,6 +38,14 @@ bool says_nothing(const FigureSpec& spec, const std::vector<VariantFigures>& var
          std::none_of(variants.begin(), variants.end(), [&](const auto& v) { return v.figures.value(spec.key) > 0; });
 }
 
+/// Those of a short table; all where none is declared as such.
+std::vector<const FigureSpec*> most_important(std::vector<const FigureSpec*> specs,
+                                              const std::vector<VariantFigures>& variants) {
+  if (std::none_of(specs.begin(), specs.end(), [](const FigureSpec* spec) { return spec->headline; })) return specs;
+  std::erase_if(specs, [&](const FigureSpec* spec) { return !spec->headline || says_nothing(*spec, variants); });
+  return specs;
+}
+
 bool has_spread(const FigureSpec& spec, const std::vector<VariantFigures>& variants) {
   return std::any_of(variants.begin(), variants.end(), [&](const auto& v) {
     const auto* entry = v.figures.find(spec.key);
@@ -195,9 +203,8 @@ std::string sampled_words(const StudyResults& studies) {
 Section key_results(const SystemRun& run, const std::vector<ResultGroup>& groups, const Text& conditions) {
   const auto variants = run.variants();
   const auto specs = known_results(run, variants);
-  auto important = specs;
-  std::erase_if(important, [&](const FigureSpec* spec) { return !spec->headline || says_nothing(*spec, variants); });
-  const auto table = results_table(important, variants, groups), all = results_table(specs, variants, groups);
+  const auto table = results_table(most_important(specs, variants), variants, groups),
+             all = results_table(specs, variants, groups);
   if (all.rows.empty()) return {"figures", "Key results"};
   return {"figures", "Key results",
           paragraph(conditions +
@@ -221,8 +228,7 @@ Section definitions_section(const SystemRun& run) {
 
 std::string key_results_text(const SystemRun& run) {
   const auto variants = run.variants();
-  auto specs = known_results(run, variants);
-  std::erase_if(specs, [&](const FigureSpec* spec) { return !spec->headline || says_nothing(*spec, variants); });
+  const auto specs = most_important(known_results(run, variants), variants);
   const auto title_of = [&](const FigureSpec& spec) {
     return with_unit(spec.title, spec.unit) + (has_spread(spec, variants) ? spread_words : "");
   };

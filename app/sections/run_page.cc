@@ -108,9 +108,8 @@ Blocks cost_blocks(const SystemRun& run) {
                    Paragraph::Tone::muted};
 }
 
-Blocks warning_blocks(const SystemRun& run) {
+Section warnings_section(const SystemRun& run) {
   const auto warnings = run_warnings(run);
-  if (warnings.empty()) return {};
   List list, notes;
   for (const auto& w : warnings) {
     const auto look = w.severity == Severity::severe    ? Text::Look::disagrees
@@ -121,9 +120,9 @@ Blocks warning_blocks(const SystemRun& run) {
                          w.text + ".");
   }
   Blocks blocks;
-  if (!list.items.empty()) blocks += heading("Warnings", "warnings") + list;
+  if (!list.items.empty()) blocks += list;
   if (!notes.items.empty()) blocks += details(fmt::format("Notes ({})", notes.items.size()), notes);
-  return blocks;
+  return {"warnings", "Warnings", blocks};
 }
 
 Section pictures_section(const NamedMeshes& meshes) {
@@ -207,11 +206,12 @@ Page run_page(const SystemRun& run, const RunPage& page) {
   const auto& scene = run.scene;
   Page made{.title = scene.title,
             .sub = phrase("annulus {} · scene {} · {}", version(), code(scene.file.filename().string()), page.words),
-            .summary = page.answer + warning_blocks(run)};
+            .summary = page.answer};
   if (!scene.project.empty()) made.sub = bold(scene.project) + " · " + made.sub;
   for (const auto* more : {&scene.author, &run.date})
     if (!more->empty()) made.sub += " · " + *more;
   for (const auto& sections : std::initializer_list<std::vector<Section>>{
+           {warnings_section(run)},
            page.results,
            {spread_section(run.studies)},
            page.sections,
@@ -225,7 +225,10 @@ Page run_page(const SystemRun& run, const RunPage& page) {
             definitions_section(run)}})
     made.sections.insert(made.sections.end(), sections.begin(), sections.end());
   // What decides stands open; the rest is a click away.
-  for (auto& section : made.sections) section.folded = section.anchor != "figures" && section.anchor != "spread";
+  for (auto& section : made.sections) {
+    constexpr const char* open[] = {"warnings", "figures", "spread"};
+    section.folded = std::find(std::begin(open), std::end(open), section.anchor) == std::end(open);
+  }
   for (const auto& variant : run.variants()) made.rings.push_back(variant.name);
   made.meshes = page.choices;
   return made;

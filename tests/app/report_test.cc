@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(tables_have_headings_of_rows) {
                              .style = app::PageTable::Style::numbers};
   const auto section = app::html(app::Section{"s", "Name", table});
   BOOST_TEST(contains(section, "<h2 id=\"s\">Name</h2>"));
-  BOOST_TEST(contains(section, "<table class=\"numbers\"><tr><th></th><th>A</th></tr>"));
+  BOOST_TEST(contains(section, "<table class=\"numbers\"><tr><td></td><th>A</th></tr>"));
   BOOST_TEST(contains(section, "<tr><td>second</td><td><span class=\"muted\">2</span></td></tr>"));
   BOOST_TEST(contains(section, "<td class=\"group\" colspan=\"2\">group</td>"));
 }

@@ -180,6 +180,8 @@ class Walk {
 const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
   static const std::vector<std::pair<std::string, std::string>> keys = {
       {"title", "a text"},
+      {"report.project", "a text"},
+      {"report.author", "a text"},
       {"reference", "a file"},
       {"*.file", "a file"},
       {"accuracy", "what two runs of a scene differ in"},

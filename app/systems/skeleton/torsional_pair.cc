@@ -97,6 +97,7 @@ const std::vector<FigureSpec>& model_figures() {
        .definition = "1/(2π) √(k (1/m_1 + 1/m_2)) with the mean mesh stiffness k and m = J/r² at the base circles",
        .guarantee = Guarantee::always,
        .digits = 5,
+       .headline = true,
        .compared = true,
        .cost_study = true,
        .plotted = true,
