@@ -162,6 +162,7 @@ void declare(CLI::App& app, Arguments& arguments) {
            "  annulus compare out/held out/pins24 out/pins12 -o pins.html");
   auto* plan = limits(budget(add_command(
       app, arguments, "plan", "What will be modelled and why, predicted time and memory; computes nothing")));
+  plan->add_flag("--inputs", arguments.inputs, "Every input with its origin, all reasons and remarks besides");
   plan->add_flag("--json", arguments.json, "As JSON");
   examples(plan,
            "  annulus plan my.toml\n"
@@ -190,9 +191,11 @@ void declare(CLI::App& app, Arguments& arguments) {
   auto* fresh = app.add_subcommand("new", "Writes a commented scene to standard output");
   fresh->add_option("kind", arguments.kind, "Kind of stage: planetary, helical_pair, two_k_v");
   fresh->add_option("--rexs", arguments.rexs, "Fill it with the gear data of this REXS file");
+  fresh->add_flag("--minimal", arguments.minimal, "A planetary stage in as few lines as it needs");
   add_common(*fresh, arguments);
   examples(fresh,
            "  annulus new planetary > my.toml\n"
+           "  annulus new --minimal > my.toml       25 lines\n"
            "  annulus new --rexs gearbox.rexs > my.toml");
 
   auto* explain_key = app.add_subcommand("explain", "Keys of a scene file, results, and the words they use");

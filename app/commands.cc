@@ -33,6 +33,7 @@
 #include "core/json.h"
 #include "core/log.h"
 #include "core/result_store.h"
+#include "example_scenes.h"
 
 namespace annulus::app {
 
@@ -176,7 +177,7 @@ void plan_command(const Arguments& arguments) {
   check_studies(scene);
   Plan plan = make_plan(scene, arguments.threads);
   plan.budget = budget;
-  fmt::print("{}", arguments.json ? to_json(plan) : to_text(plan));
+  fmt::print("{}", arguments.json ? to_json(plan) : arguments.inputs ? to_text(plan) : overview(plan));
   // The plan itself shows what is too much.
   std::fflush(stdout);
   check_limits(scene, limits_of(arguments), arguments.threads);
@@ -297,6 +298,12 @@ void cache_command(const Arguments& arguments) {
 }
 
 void new_command(const Arguments& arguments) {
+  if (arguments.minimal) {
+    if (!arguments.rexs.empty() || (!arguments.kind.empty() && arguments.kind != "planetary"))
+      throw InputError("--minimal: writes a planetary stage; leave out the kind and --rexs");
+    fmt::print("{}", minimal_example);
+    return;
+  }
   if (!arguments.rexs.empty()) {
     if (!arguments.kind.empty())
       throw InputError(arguments.kind + ": the kind of stage follows from the REXS file; give one of the two");

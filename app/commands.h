@@ -13,8 +13,8 @@ struct Arguments {
   std::vector<std::string> folders;  ///< of compare
   std::optional<std::string> budget, max_memory, max_time;
   std::vector<std::string> settings;  ///< of --set
-  bool json = false, strict = false, markdown = false, definitions = false, clear = false, quiet = false,
-       verbose = false;
+  bool inputs = false, minimal = false, json = false, strict = false, markdown = false, definitions = false,
+       clear = false, quiet = false, verbose = false;
   int threads = 1;
 };
 

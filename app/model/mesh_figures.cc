@@ -39,6 +39,8 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
        .compared = true},
       {.key = mesh + "_stiffness_ripple",
        .title = "Ripple of the stiffness of the " + title,
+       .unit = "%",
+       .scale = 100,
        .definition = "(largest - smallest) / mean of the secant stiffness over the mesh cycles at the nominal load",
        .term = "stiffness_ripple",
        .better = Better::smaller,
@@ -80,6 +82,7 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
   face.symbol = "K_Hβ";
   face.term = "face_load_factor";
   face.headline = true;
+  face.digits = 3;
   for (const auto& body : bodies)
     for (const auto& [key, name] : stress_names) {
       auto& stress = add(body + "_" + key + "_Pa", std::string(name) + " of the " + body,
@@ -88,6 +91,7 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
       stress.term = std::string(key).starts_with("root") ? "root_stress" : "rim_stress";
       stress.headline = std::string(key) != "root_von_mises";
       stress.scale = 1e-6;
+      stress.digits = 3;  // no error is estimated
     }
   return specs;
 }

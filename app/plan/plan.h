@@ -64,6 +64,9 @@ void add_diameters(std::vector<DerivedInput>& list, const std::string& table, co
 /// The inputs of a scene that have a value, those that are derived among them.
 [[nodiscard]] std::vector<Input> resolved_inputs(const Scene& scene, const std::vector<DerivedInput>& derived);
 
+/// Decisions, studies, cost and warnings on one screen.
+[[nodiscard]] std::string overview(const Plan& plan);
+/// All of it, every input with its origin.
 [[nodiscard]] std::string to_text(const Plan& plan);
 [[nodiscard]] std::string to_json(const Plan& plan);
 

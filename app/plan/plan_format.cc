@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,6 +87,22 @@ std::string cost_lines(const Plan& plan) {
   return plan.budget.empty() ? text : text + "  " + plan.budget + "\n";
 }
 
+std::string study_lines(const Plan& plan) {
+  std::string text = plan.studies.empty() ? "" : "\nStudies\n";
+  for (const auto& s : plan.studies) {
+    text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.what, s.responses,
+                        plan.rings.empty() ? "" : " of all rings", duration_text(s.seconds));
+    text += s.tables ? fmt::format("; {} stiffness tables of their own\n", s.tables) : ", on the tables of the scene\n";
+  }
+  return text;
+}
+
+std::string warning_lines(const Plan& plan) {
+  std::string text = plan.warnings.empty() ? "" : "\nWarnings\n";
+  for (const auto& warning : plan.warnings) text += "  " + to_text(warning) + "\n";
+  return text;
+}
+
 std::string input_lines(const std::vector<Input>& inputs) {
   std::string text, ring;
   for (const auto& input : inputs) {
@@ -110,6 +127,25 @@ std::string assumed_lines(const std::vector<Input>& inputs) {
 
 }  // namespace
 
+std::string overview(const Plan& plan) {
+  std::string text = plan.title + "\n\nMeshes\n";
+  for (const auto& mesh : plan.meshes)
+    text += "  " + pad(mesh.label(), 36) + pad(mesh.fidelity, 14) +
+            (mesh.computed() ? fmt::format("{} phases, {} ring position{}; ", mesh.problem->phases, mesh.positions,
+                                           mesh.positions == 1 ? "" : "s")
+                             : "") +
+            mesh.reason + "\n";
+  if (!plan.motion.empty()) text += "\nMotion\n";
+  for (const auto& d : plan.motion) text += "  " + pad(d.what, 36) + d.choice + "\n";
+  std::vector<std::string> dropped;
+  for (const auto& f : plan.dofs)
+    if (!f.kept) dropped.push_back(f.name);
+  if (!dropped.empty())
+    text += "  " + pad("rigid, degrees of freedom dropped", 36) + fmt::format("{}\n", fmt::join(dropped, "; "));
+  return text + study_lines(plan) + cost_lines(plan) + warning_lines(plan) +
+         "\n--inputs lists every input with its origin, reasons and remarks.\n";
+}
+
 std::string to_text(const Plan& plan) {
   std::string text =
       plan.title + "\n\nInputs (origin: scene, default, derived; * assumed)\n" + input_lines(plan.inputs);
@@ -125,18 +161,9 @@ std::string to_text(const Plan& plan) {
   for (const auto& f : plan.dofs)
     text += fmt::format("  {} {} {}\n", f.kept ? "kept   " : "dropped", pad(f.name, 18), f.reason);
 
-  if (!plan.studies.empty()) text += "\nStudies\n";
-  for (const auto& s : plan.studies) {
-    text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.what, s.responses,
-                        plan.rings.empty() ? "" : " of all rings", duration_text(s.seconds));
-    text += s.tables ? fmt::format("; {} stiffness tables of their own\n", s.tables) : ", on the tables of the scene\n";
-  }
-
-  text += "\nRemarks\n";
+  text += study_lines(plan) + "\nRemarks\n";
   for (const auto& remark : plan.remarks) text += "  " + remark + "\n";
-  if (!plan.warnings.empty()) text += "\nWarnings\n";
-  for (const auto& warning : plan.warnings) text += "  " + to_text(warning) + "\n";
-  return text + assumed_lines(plan.inputs);
+  return text + warning_lines(plan) + assumed_lines(plan.inputs);
 }
 
 std::string to_json(const Plan& plan) {

@@ -90,7 +90,7 @@ class BlockWriter {
                        app::html(paragraph.text));
   }
 
-  static std::string written(const Lines& lines) { return "<pre>" + escape(lines.text) + "</pre>\n"; }
+  static std::string written(const Lines& lines) { return "<pre tabindex=\"0\">" + escape(lines.text) + "</pre>\n"; }
 
   std::string written(const List& list) {
     std::string items;

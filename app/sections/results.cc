@@ -26,10 +26,16 @@ std::string result_text(const FigureSpec& spec, const VariantFigures& variant) {
   const auto* entry = variant.figures.find(spec.key);
   if (!entry || std::isnan(entry->figure.value)) return "–";
   if (spec.key == "steady") return entry->figure.value != 0 ? "yes" : "no";
+  const auto& figure = entry->figure;
+  // A share of the time that no digit shows is not none.
+  constexpr double least_share = 1e-4;
+  if (spec.term == "contact_loss" && figure.value > 0 && figure.value < least_share) return "< 0.01";
+  const auto text = std::isfinite(figure.error) && figure.error > 0 ? measured(figure, spec.scale)
+                                                                    : to_text(spec.scale * figure.value, spec.digits);
   // Of the window alone that was evaluated.
   const bool of_motion = spec.effort != FigureEffort::tables && spec.term != "natural_frequency";
   const auto* steady = variant.figures.find("steady");
-  return measured(entry->figure, spec.scale) + (of_motion && steady && steady->figure.value == 0 ? " †" : "");
+  return text + (of_motion && steady && steady->figure.value == 0 ? " †" : "");
 }
 
 /// A loss of contact that there is not.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -52,7 +53,10 @@ BOOST_AUTO_TEST_CASE(check_plan_and_explain) {
   const test::TemporaryFolder folder("check");
   put_scene(folder.path(), test::quick_scene());
   BOOST_TEST(test::run_program(folder.path(), "check scene.toml").status == 0);
-  const auto plan = test::run_program(folder.path(), "plan scene.toml");
+  const auto screen = test::run_program(folder.path(), "plan scene.toml");
+  BOOST_TEST(screen.status == 0);
+  BOOST_TEST(std::count(screen.out.begin(), screen.out.end(), '\n') <= 50);
+  const auto plan = test::run_program(folder.path(), "plan scene.toml --inputs");
   BOOST_TEST(plan.status == 0);
   BOOST_TEST(plan.out.find("696.13714 Hz") != std::string::npos);
   const auto json = test::run_program(folder.path(), "plan scene.toml --json");
@@ -66,6 +70,53 @@ BOOST_AUTO_TEST_CASE(check_plan_and_explain) {
   const auto wrong = test::run_program(folder.path(), "check scene.toml");
   BOOST_TEST(wrong.status == 2);
   BOOST_TEST(wrong.err.find("scene.toml:5:1: stage.module_mm = -3.8") == 0U, wrong.err);
+}
+
+// The smallest scene of the README, and what it prints there.
+BOOST_AUTO_TEST_CASE(the_readme_shows_the_minimal_scene) {
+  const test::TemporaryFolder folder("minimal");
+  const auto readme = read_file(ANNULUS_SOURCE_DIR "/README.md");
+  const auto fresh = test::run_program(folder.path(), "new --minimal");
+  BOOST_TEST(std::count(fresh.out.begin(), fresh.out.end(), '\n') == 25);
+  BOOST_TEST(readme.find("```toml\n" + fresh.out + "```") != std::string::npos);
+  write_file(folder.path() / "my.toml", fresh.out);
+  const auto run = test::run_program(folder.path(), "run my.toml --threads 2");
+  BOOST_TEST_REQUIRE(run.status == 0, run.err);
+  const auto table = run.out.substr(0, run.out.find("\n\n") + 1);
+  BOOST_TEST(readme.find("```\n" + table + "```") != std::string::npos, table);
+}
+
+// What a command does not have is named, with what it has.
+BOOST_AUTO_TEST_CASE(unknown_options_are_named) {
+  const test::TemporaryFolder folder("options");
+  put_scene(folder.path(), test::quick_scene());
+  for (const auto& [arguments, name] : {std::pair{"run --thread 2 scene.toml", "--thread"},
+                                        {"--frob", "--frob"},
+                                        {"check scene.toml --strct", "--strct"}}) {
+    const auto outcome = test::run_program(folder.path(), arguments);
+    BOOST_TEST(outcome.status == 2);
+    BOOST_TEST(outcome.err.find(std::string(name) + ": annulus") == 0U, outcome.err);
+    BOOST_TEST(outcome.err.find("has no such option") != std::string::npos, outcome.err);
+  }
+}
+
+// As if the file had other values; what is computed and what is shown are those.
+BOOST_AUTO_TEST_CASE(settings_change_a_scene) {
+  const test::TemporaryFolder folder("settings");
+  put_scene(folder.path(), test::quick_scene());
+  const auto plan =
+      test::run_program(folder.path(), "plan scene.toml --json --set stage.power_kW=1000 --set title=Other");
+  BOOST_TEST_REQUIRE(plan.status == 0, plan.err);
+  const auto json = nlohmann::json::parse(plan.out);
+  BOOST_TEST(json["title"] == "Other");
+  for (const auto& input : json["inputs"])
+    if (input["key"] == "stage.power_kW") BOOST_TEST(input["value"] == 1000);
+  const auto wrong = test::run_program(folder.path(), "check scene.toml --set stage.powr_kW=1");
+  BOOST_TEST(wrong.status == 2);
+  BOOST_TEST(wrong.err.find("did you mean stage.power_kW?") != std::string::npos, wrong.err);
+  BOOST_TEST(test::run_program(folder.path(), "check scene.toml --set stage.power_kW=-1").status == 2);
+  BOOST_TEST(test::run_program(folder.path(), "check scene.toml --set ring.held.teeth=162").status == 0);
+  BOOST_TEST(test::run_program(folder.path(), "check scene.toml --set ring.other.teeth=162").status == 2);
 }
 
 BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {

@@ -25,7 +25,8 @@ std::string pinned_scene() {
   text = test::replaced(text, "planet_N_per_m = 1e9\n", "planet_N_per_m = 1e9\nring_N_per_m = 1e9\n");
   text = test::replaced(text, "[mesh.ring_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294\n",
                         "");
-  text = test::replaced(text, "planet_eccentricity_um", "planet_pin_position_error_um");
+  for (const std::string unit : {"_um", "_phase_deg"})
+    text = test::replaced(text, "planet_eccentricity" + unit, "planet_pin_position_error" + unit);
   return test::replaced(text, "mesh_cycles = 110\n", "mesh_cycles = 4\n");
 }
 

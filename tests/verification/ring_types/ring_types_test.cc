@@ -80,6 +80,9 @@ BOOST_AUTO_TEST_CASE(scene_to_report) {
     }
   }
 
+  constexpr std::uintmax_t largest_page = 4'000'000;
+  BOOST_TEST(std::filesystem::file_size(scene.out / "report.html") <= largest_page);
+
   // What the README prints is what this run gives.
   const auto readme = annulus::read_file(ANNULUS_SOURCE_DIR "/README.md");
   for (const auto& variant : summary.at("variants")) {
