@@ -47,7 +47,7 @@ Text spread_sentence(const std::vector<Measured>& rings) {
   }
   std::vector<Text> nominal;
   for (const auto& r : rings) nominal.emplace_back(measured(r.value, r.error));
-  return phrase("median (5 % to 95 %) {}, because inputs are not known. The nominal inputs give {}.", enumerated(words),
+  return phrase("{} (median, 5 % to 95 % of the samples); {} with the nominal inputs.", enumerated(words),
                 enumerated(nominal));
 }
 
