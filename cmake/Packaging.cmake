@@ -23,8 +23,9 @@ add_custom_command(
   OUTPUT ${generated}/annulus.1
   COMMAND ${HELP2MAN} --no-info --help-option=--help-all --section=1
           --name "ring gear flexibility, from structure to planetary dynamics" --output=${generated}/annulus.1
+          --include=${PROJECT_SOURCE_DIR}/cmake/annulus.h2m
           $<TARGET_FILE:annulus_cli>
-  DEPENDS annulus_cli VERBATIM)
+  DEPENDS annulus_cli ${PROJECT_SOURCE_DIR}/cmake/annulus.h2m VERBATIM)
 add_custom_target(annulus_generated ALL
                   DEPENDS ${generated}/annulus.bash ${generated}/_annulus ${generated}/annulus.fish ${generated}/annulus.1)
 install(FILES ${generated}/annulus.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME annulus)

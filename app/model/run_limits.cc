@@ -153,8 +153,9 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads) {
       continue;
     }
     auto sentence = fmt::format(
-        "budget {}: gives a mesh stiffness within {:g} % of its model (expected error {:.2g} %); predicted {}", given,
-        100 * accuracy, 100 * cost.expected_error(), figures_text(cost));
+        "budget {}: gives a mesh stiffness within {:g} % of its model (expected error {:.2g} %); predicted {}; --set "
+        "accuracy={} repeats it",
+        given, 100 * accuracy, 100 * cost.expected_error(), figures_text(cost), to_text(accuracy));
     return {std::move(fitted), std::move(cost), std::move(sentence)};
   }
   require(!cheapest.empty(), "no accuracy is within reach of the finest level");

@@ -51,6 +51,18 @@ BOOST_AUTO_TEST_CASE(backlash_agrees_with_the_profile_shift_sum) {
 
 // A worked profile shift calculation after ISO 21771:2007 (equations 62 and 63): m_n = 3.5 mm, 20 deg, 31 and 30 teeth,
 // helix angle 21 deg (from the printed reference centre distance), working centre distance 116.5 mm.
+// Of the basic rack, whose root lies a quarter of a module below the tip of the mate, unless the centres move apart.
+BOOST_AUTO_TEST_CASE(tips_clear_roots_by_a_quarter_of_a_module) {
+  const double m = 2 * units::mm, apart = 0.1 * units::mm;
+  const auto close = boost::test_tools::tolerance(1e-9);
+  for (const double more : {0.0, apart}) {
+    const GearPair external(Gear(plain_gear(GearKind::external, 24)), Gear(plain_gear(GearKind::external, 31)),
+                            55 * units::mm + more);
+    BOOST_TEST(external.tip_clearance().pinion_tip == 0.25 * m + more, close);
+    BOOST_TEST(external.tip_clearance().wheel_tip == 0.25 * m + more, close);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(published_helical_pair) {
   annulus::test::Verification record("Published helical pair",
                                      "worked profile shift calculation after ISO 21771:2007, "
