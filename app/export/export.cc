@@ -117,6 +117,7 @@ std::filesystem::path export_file(const std::filesystem::path& source, const std
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == format; });
   if (found == formats.end()) {
     std::vector<std::string> names;
+    names.reserve(formats.size());
     for (const auto& f : formats) names.emplace_back(f.name);
     const std::string near = nearest(format, names);
     throw InputError(fmt::format("--to {}: there is no such format{}; the formats are {}", format,

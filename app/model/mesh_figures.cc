@@ -111,7 +111,7 @@ FigureSet mesh_figures(const MeshResult& mesh) {
       const auto column = fmt::format("{}_{}", mesh.model.body_name(planet), key);
       // A body without a free rim has none of its stresses.
       if (const auto stress = mesh.peak(column + "_MPa"); stress && std::isfinite(stress->value) && stress->value != 0)
-        figures.set(name + "_" + column + "_Pa", 1e6 * stress->value);
+        figures.set(fmt::format("{}_{}_Pa", name, column), 1e6 * stress->value);
     }
   return figures;
 }

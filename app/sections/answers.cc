@@ -46,6 +46,7 @@ Text spread_sentence(const std::vector<Measured>& rings) {
                              : measured(r.value, r.error) + of_ring);
   }
   std::vector<Text> nominal;
+  nominal.reserve(rings.size());
   for (const auto& r : rings) nominal.emplace_back(measured(r.value, r.error));
   return phrase("{} (median, 5 % to 95 % of the samples); {} with the nominal inputs.", enumerated(words),
                 enumerated(nominal));

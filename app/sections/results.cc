@@ -89,6 +89,7 @@ Text result_title(const FigureSpec& spec) {
 
 std::vector<std::string> column_names(const std::vector<VariantFigures>& variants) {
   std::vector<std::string> names;
+  names.reserve(variants.size());
   for (const auto& v : variants)
     names.push_back(!v.name.empty() ? v.name : variants.size() == 1 ? "value" : "as in the scene");
   return names;

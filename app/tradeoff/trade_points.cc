@@ -56,6 +56,7 @@ StiffnessCycle stiffness_cycle(const MeshResult& mesh) {
 
 std::vector<TradeFigure> trade_figures(const std::vector<MeshModel>& meshes, const std::vector<FigureSpec>& model) {
   std::vector<TradeFigure> list;
+  list.reserve(2 * meshes.size() + model.size());
   const auto name = [](const MeshModel& mesh) { return "the " + mesh.label(); };
   for (const auto& mesh : meshes)
     list.push_back({mean_key(mesh.mesh), "mean stiffness of " + name(mesh), Guarantee::always});

@@ -63,6 +63,7 @@ bool all_computed(const std::vector<MeshModel>& meshes) {
 
 std::vector<const MeshResult*> pointers(const std::vector<MeshResult>& tables) {
   std::vector<const MeshResult*> list;
+  list.reserve(tables.size());
   for (const auto& table : tables) list.push_back(&table);
   return list;
 }

@@ -125,6 +125,7 @@ void ClosedFormBody::let_yield(const PlainRing& rim, double width, RimTheory the
       if (!group.members.empty()) groups.push_back(std::move(group));
     }
   std::vector<double> tooth_angles;
+  tooth_angles.reserve(static_cast<std::size_t>(teeth_));
   for (int tooth = 0; tooth < teeth_; ++tooth) tooth_angles.push_back(tooth * pitch_angle_);
   for (const Group& source : groups) {
     const RingHarmonics& source_load = loads[source.arc][source.direction];

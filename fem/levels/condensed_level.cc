@@ -157,7 +157,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
     for (int pin = 0; pin < sites.pins; ++pin) result.pin_angles.push_back(-sites.sites[pin].angle);
   }
   result.slice_edges = result.half_face ? mirrored_edges(bodies.slice_edges) : bodies.slice_edges;
-  static_cast<SolveCost&>(result) = bodies;
+  static_cast<SolveCost&>(result) = static_cast<const SolveCost&>(bodies);
   result.contact_seconds = watch.seconds();
   return result;
 }

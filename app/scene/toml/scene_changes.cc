@@ -121,7 +121,7 @@ toml::table value_of_setting(const std::string& text) {
 void apply_setting(toml::table& root, const std::string& setting) {
   const auto equal = setting.find('=');
   if (equal == std::string::npos) refuse_setting(setting, "must be KEY=VALUE");
-  const auto trimmed = [](std::string text) {
+  const auto trimmed = [](const std::string& text) {
     const auto begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
     return begin == std::string::npos ? std::string() : text.substr(begin, end - begin + 1);
   };
