@@ -72,7 +72,7 @@ StudyResults run_studies(const StudySubject& subject) {
   if (!scene.dynamics) return results;
   const auto& reuse = subject.options().reuse;
   const auto reused = [&] { return reuse ? reuse->counted(study_responses).reused : 0; };
-  // Times are told where nothing was reused.
+  // Times are known where nothing was reused.
   const auto timed = [&](const std::string& name, const auto& study) {
     const auto before = reused();
     const Stopwatch watch;
