@@ -104,6 +104,16 @@ Scene wanted_scene(const Arguments& arguments, std::string& sentence) {
   return std::move(choice.scene);
 }
 
+/// Without the table of a run its warnings go to the messages; notes are in the summary alone.
+void warn_of_results(const std::string& summary) {
+  const auto json = Json::parse(summary);
+  for (const auto& warning : json.at("warnings")) {
+    if (warning.at("severity") == to_text(Severity::note)) continue;
+    const std::string where = warning.value("where", "");
+    log::warn((where.empty() ? "" : where + ": ") + warning.at("text").get<std::string>());
+  }
+}
+
 void run_and_print(const Arguments& arguments, bool with_dynamics) {
   std::string budget;
   const Scene scene = wanted_scene(arguments, budget);
@@ -128,9 +138,11 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
     folder.remove_earlier(is_of_run);
     keep_finished_run(options.out, id, text, folder.written(is_of_run));
   }
-  if (arguments.json) {
-    fmt::print("{}", read_file(options.out / "summary.json"));
-  } else if (!arguments.quiet) {
+  if (arguments.json || arguments.quiet) {
+    const auto summary = read_file(options.out / "summary.json");
+    warn_of_results(summary);
+    if (arguments.json) fmt::print("{}", summary);
+  } else {
     if (!budget.empty()) text += budget + "\n";
     fmt::print("{}report  {}\n", text, (options.out / "report.html").string());
   }

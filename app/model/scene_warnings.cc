@@ -69,11 +69,12 @@ std::vector<Warning> common_warnings(const Scene& scene, const Plan& plan) {
   return list;
 }
 
-void warn_of_clearance(std::vector<Warning>& list, const geometry::GearPair& pair, const std::string& mesh) {
+void warn_of_clearance(std::vector<Warning>& list, const geometry::GearPair& pair,
+                       const std::pair<const char*, const char*>& gears, const std::string& mesh) {
   constexpr double least = 0.1;  // modules
   const double module = pair.pinion().parameters().module;
   const auto clearance = pair.tip_clearance();
-  for (const auto& [gear, gap] : {std::pair{"pinion (planet)", clearance.pinion_tip}, {"wheel", clearance.wheel_tip}})
+  for (const auto& [gear, gap] : {std::pair{gears.first, clearance.pinion_tip}, {gears.second, clearance.wheel_tip}})
     if (gap < least * module)
       list.push_back(
           {"tip_clearance", Severity::warning,

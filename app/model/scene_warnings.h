@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/plan/plan.h"
@@ -14,8 +15,9 @@ namespace annulus::app {
 /// inputs, meshes and cost.
 [[nodiscard]] std::vector<Warning> common_warnings(const Scene& scene, const Plan& plan);
 
-/// A tip that passes the root of its mate nearer than a tenth of a module.
-void warn_of_clearance(std::vector<Warning>& list, const geometry::GearPair& pair, const std::string& mesh);
+/// A tip that passes the root of its mate nearer than a tenth of a module. `gears`: names of pinion and wheel.
+void warn_of_clearance(std::vector<Warning>& list, const geometry::GearPair& pair,
+                       const std::pair<const char*, const char*>& gears, const std::string& mesh);
 /// A half backlash of the dynamics (m) that is larger than half of what the geometry leaves.
 void warn_of_backlash(std::vector<Warning>& list, double half_backlash, const geometry::GearPair& pair,
                       const std::string& mesh);

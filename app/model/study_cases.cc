@@ -205,7 +205,7 @@ std::vector<std::string> unstated_phases(const Scene& scene) { return unknown_ph
 
 std::optional<Sampling> sampling_of(const Scene& scene) {
   if (!scene.dynamics) return std::nullopt;
-  // The fewest samples among which the 5 % quantile is not the smallest one.
+  // One of them is expected beyond either end of the range from 5 % to 95 %.
   constexpr int few = 20;
   const auto& asked = scene.monte_carlo;
   Sampling sampling{.samples = few, .seed = 1, .variables = {}, .by_default = !asked};

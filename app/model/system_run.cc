@@ -47,7 +47,7 @@ std::vector<const MeshResult*> SystemRun::tables_of(std::size_t variant) const {
 
 namespace {
 
-/// The spreads of results that samples of this variant have; quantiles are worth their name from 20 samples on.
+/// The spreads of results that samples of this variant have.
 void add_spreads(FigureSet& figures, const StudyResults& studies, const std::string& variant) {
   if (!studies.monte_carlo) return;
   for (std::size_t i = 0; i < studies.variants.size(); ++i) {

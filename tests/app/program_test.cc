@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
 #include "core/csv.h"
 #include "core/files.h"
@@ -84,6 +85,21 @@ BOOST_AUTO_TEST_CASE(the_readme_shows_the_minimal_scene) {
   BOOST_TEST_REQUIRE(run.status == 0, run.err);
   const auto table = run.out.substr(0, run.out.find("\n\n") + 1);
   BOOST_TEST(readme.find("```\n" + table + "```") != std::string::npos, table);
+}
+
+// Quiet means no table; what must be known before a number is trusted is still said, the second time too.
+BOOST_AUTO_TEST_CASE(quiet_runs_still_warn) {
+  const test::TemporaryFolder folder("quiet");
+  put_scene(folder.path(), test::quick_scene());
+  for (int i = 0; i < 2; ++i) {
+    const auto quiet = test::run_program(folder.path(), "run scene.toml -q -o out");
+    BOOST_TEST(quiet.status == 0, quiet.err);
+    BOOST_TEST(quiet.out.empty(), quiet.out);
+    BOOST_TEST(quiet.err.find("warning: sun mesh: the dynamics uses the prescribed half backlash") != std::string::npos,
+               quiet.err);
+  }
+  const auto json = test::run_program(folder.path(), "run scene.toml --json -o out");
+  BOOST_TEST(nlohmann::json::parse(json.out).contains("warnings"));
 }
 
 // What a command does not have is named, with what it has.
@@ -253,7 +269,9 @@ BOOST_AUTO_TEST_CASE(unchanged_results_are_reused_and_changed_ones_are_not) {
   put_scene(folder.path(), test::replaced(test::quick_scene(), "half_backlash_um = 50", "half_backlash_um = 40"));
   const auto changed = test::run_program(folder.path(), "run scene.toml -o out --quiet");
   BOOST_TEST(changed.status == 0);
-  BOOST_TEST(changed.err.empty());
+  BOOST_TEST(changed.out.empty());
+  std::istringstream messages(changed.err);
+  for (std::string line; std::getline(messages, line);) BOOST_TEST(line.starts_with("warning: "), line);
   BOOST_TEST(read_file(folder.path() / "out/held/dynamics/figures.json") != before);
 }
 

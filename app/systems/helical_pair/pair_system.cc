@@ -72,7 +72,7 @@ class PairSystem final : public GearSystem {
   [[nodiscard]] std::vector<Warning> scene_warnings() const override {
     const auto geometry = make_pair_geometry(scene());
     std::vector<Warning> list;
-    warn_of_clearance(list, geometry.gears, "");
+    warn_of_clearance(list, geometry.gears, {"pinion", "wheel"}, "");
     if (scene().dynamics)
       warn_of_backlash(list, scene().pinion_wheel.half_backlash.value_or(scene().dynamics->half_backlash),
                        geometry.gears, "");

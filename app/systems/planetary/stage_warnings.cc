@@ -53,9 +53,9 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
                       fmt::format("rigid, because the scene does not mention {}. Soft planet bearings, carriers and "
                                   "rings even out what the planets carry; give a stiffness, or \"rigid\"",
                                   fmt::join(keys, ", "))});
-  warn_of_clearance(list, geometry.sun_mesh(), "sun mesh");
+  warn_of_clearance(list, geometry.sun_mesh(), {"planet", "sun"}, "sun mesh");
   for (const auto& ring : geometry.rings)
-    warn_of_clearance(list, ring.set.ring_mesh(), "ring mesh of '" + ring.name + "'");
+    warn_of_clearance(list, ring.set.ring_mesh(), {"planet", "ring"}, "ring mesh of '" + ring.name + "'");
   if (scene.dynamics) {
     warn_of_backlash(list, scene.sun_planet.half_backlash.value_or(scene.dynamics->half_backlash), geometry.sun_mesh(),
                      "sun mesh");
