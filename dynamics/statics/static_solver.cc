@@ -165,6 +165,16 @@ Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
   throw SolverError(fmt::format("no consistent contact state in {} attempts at t = {:g} s (quasi-static)", tries, t));
 }
 
+Eigen::MatrixXd StaticSolver::force_per_error() const {
+  const Eigen::MatrixXd meshes = mesh_stiffness_matrix(system_, mean_tangents(system_)), b = system_.mesh_vectors();
+  const Eigen::LLT<Eigen::MatrixXd> factor(base_ + b * meshes * b.transpose());
+  if (factor.info() != Eigen::Success)
+    throw SolverError(
+        "the static stiffness at the mean mesh stiffnesses is not positive: a degree of freedom has no "
+        "support");
+  return meshes * b.transpose() * factor.solve(b * meshes) - meshes;
+}
+
 StaticPath static_path(const LumpedSystem& system, const Eigen::VectorXd& times) {
   StaticSolver solver(system);
   auto workspace = system.workspace();

@@ -22,6 +22,10 @@ class StaticSolver {
   /// the contact state or, with a law, the equilibrium is not found.
   [[nodiscard]] Eigen::VectorXd solve(double t, LumpedSystem::Workspace& workspace);
 
+  /// d forces / d errors of the meshes, N/m, meshes x meshes: every mesh in contact, with its mean tangent stiffness
+  /// and its mesh vector at time 0. Throws SolverError where this stiffness is not positive.
+  [[nodiscard]] Eigen::MatrixXd force_per_error() const;
+
  private:
   /// Equilibrium in the held contact state: one Newton step for linear meshes, a few steps with a law.
   void iterate(double t, Eigen::VectorXd& q, LumpedSystem::Workspace& workspace);

@@ -1,0 +1,233 @@
+#include "dynamics/systems/planetary/sharing_tolerances.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/parallel.h"
+#include "dynamics/statics/static_solver.h"
+#include "dynamics/statistics/sampling.h"
+#include "dynamics/system/lumped_system.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// A zone and what the report calls it.
+struct Zone {
+  const char* name;
+  double StageTolerances::*radius;
+};
+constexpr std::array<Zone, 4> zones = {{{"planet_pin_position", &StageTolerances::planet_pin_position},
+                                        {"sun_eccentricity", &StageTolerances::sun_eccentricity},
+                                        {"planet_eccentricity", &StageTolerances::planet_eccentricity},
+                                        {"ring_eccentricity", &StageTolerances::ring_eccentricity}}};
+
+/// Distance from the centre of a zone of radius 1, below which a deviation lies with this probability.
+double distance(WithinZone within, double probability) {
+  if (within == WithinZone::uniform) return std::sqrt(probability);
+  static const Distribution law{.kind = Distribution::Kind::rayleigh, .low = 0, .high = 1, .scale = 1.0 / 3};
+  return law.quantile(probability);
+}
+
+Deviation drawn(WithinZone within, double radius, std::uint64_t seed, int assembly, const std::string& name) {
+  const auto sample = static_cast<std::uint64_t>(assembly);
+  return {radius * distance(within, uniform_draw(seed, sample, name + " distance")),
+          2 * std::numbers::pi * uniform_draw(seed, sample, name + " direction")};
+}
+
+/// The force of every sun mesh over the mesh cycles of the error period, linear in the errors: a sum of terms that
+/// repeat after as many cycles as a gear has teeth.
+class LinearForces {
+ public:
+  explicit LinearForces(const PlanetaryStage& stage, const LumpedSystem& system, const StaticSolver& solver)
+      : cycles_(std::min(stage.error_period(), most_cycles)) {
+    const Eigen::Index planets = stage.planets();
+    const double frequency = stage.mesh_frequency();
+    std::map<double, Eigen::VectorXcd> by_rate;
+    const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
+    for (Eigen::Index m = 0; m < meshes; ++m)
+      for (const auto& error : system.meshes()[static_cast<std::size_t>(m)].errors) {
+        auto& amplitudes = by_rate.try_emplace(error.rate, Eigen::VectorXcd::Zero(meshes)).first->second;
+        amplitudes[m] += std::polar(error.amount, error.phase);
+      }
+    const Eigen::MatrixXd response = solver.force_per_error();
+    constant_ = Eigen::VectorXd::Constant(planets, stage.mean_mesh_force());
+    for (const auto& [rate, amplitudes] : by_rate) {
+      const Eigen::VectorXcd force = (response * amplitudes).head(planets);
+      if (rate == 0) {
+        constant_ += force.imag();
+        continue;
+      }
+      const auto period = std::max(1L, std::lround(2 * std::numbers::pi * frequency / std::abs(rate)));
+      auto& term = terms_.emplace_back(planets, period);
+      for (long c = 0; c < period; ++c)
+        term.col(c) = (force * std::polar(1.0, rate * (static_cast<double>(c) + 0.5) / frequency)).imag();
+    }
+  }
+
+  /// For each planet the mesh cycle in which it carries most, and that in which it carries the largest part of what
+  /// pushing meshes carry together, without repetitions.
+  [[nodiscard]] std::set<int> worst_cycles() const {
+    if (terms_.empty()) return {0};
+    const auto planets = static_cast<std::size_t>(constant_.size());
+    struct Worst {
+      double value = -std::numeric_limits<double>::infinity();
+      int cycle = 0;
+    };
+    std::vector<Worst> largest(planets), largest_part(planets);
+    std::vector<Eigen::Index> at(terms_.size(), 0);
+    Eigen::VectorXd force;
+    for (int c = 0; c < cycles_; ++c) {
+      force = constant_;
+      for (std::size_t k = 0; k < terms_.size(); ++k) {
+        force += terms_[k].col(at[k]);
+        if (++at[k] == terms_[k].cols()) at[k] = 0;
+      }
+      const double pushing = force.cwiseMax(0).sum();
+      for (std::size_t n = 0; n < planets; ++n) {
+        const double own = force[static_cast<Eigen::Index>(n)];
+        if (own > largest[n].value) largest[n] = {own, c};
+        if (own > largest_part[n].value * pushing) largest_part[n] = {own / pushing, c};
+      }
+    }
+    std::set<int> worst;
+    for (const auto* list : {&largest, &largest_part})
+      for (const auto& w : *list) worst.insert(w.cycle);
+    return worst;
+  }
+
+ private:
+  /// Of a longer error period the first part: it comes as near to every combination of directions as matters.
+  static constexpr int most_cycles = 200000;
+  int cycles_;
+  Eigen::VectorXd constant_;
+  std::vector<Eigen::MatrixXd> terms_;
+};
+
+PlanetaryStage at_share(PlanetaryStage stage, double share) {
+  stage.sun_torque *= share;
+  return stage;
+}
+
+SharingQuantiles quantiles_of(const std::vector<double>& factors) {
+  return {quantile_interval(factors, 0.5), quantile_interval(factors, 0.95), quantile_interval(factors, 0.99)};
+}
+
+/// K_γ of all assemblies, [torque share][assembly].
+struct Drawn {
+  std::vector<std::vector<double>> factors;
+  double largest_force = 0;
+};
+Drawn draw_all(const PlanetaryStage& stage, const StageTolerances& tolerances, const AssemblyOptions& options,
+               const std::vector<double>& shares) {
+  const auto count = static_cast<std::size_t>(options.assemblies);
+  Drawn result{std::vector(shares.size(), std::vector<double>(count))};
+  std::vector<double> forces(count);
+  for_each_task(count, options.threads, [&](std::size_t i) {
+    try {
+      const auto assembly = drawn_assembly(stage, tolerances, options.seed, static_cast<int>(i));
+      const auto sharing = error_period_sharing(assembly, shares);
+      for (std::size_t s = 0; s < shares.size(); ++s) result.factors[s][i] = sharing.factors[s];
+      forces[i] = sharing.largest_force;
+    } catch (const SolverError& error) {
+      throw SolverError(fmt::format("assembly {} of {} within the tolerances: {}", i + 1, count, error.what()));
+    }
+  });
+  result.largest_force = *std::max_element(forces.begin(), forces.end());
+  return result;
+}
+
+}  // namespace
+
+PlanetaryStage drawn_assembly(const PlanetaryStage& stage, const StageTolerances& tolerances, std::uint64_t seed,
+                              int assembly) {
+  auto made = stage;
+  const auto draw = [&](Deviation& deviation, double radius, const std::string& name) {
+    if (radius > 0) deviation = drawn(tolerances.within, radius, seed, assembly, name);
+  };
+  draw(made.sun.errors.eccentricity, tolerances.sun_eccentricity, "sun eccentricity");
+  draw(made.ring.errors.eccentricity, tolerances.ring_eccentricity, "ring eccentricity");
+  made.planet_errors.resize(made.planet_angles.size());
+  for (std::size_t n = 0; n < made.planet_errors.size(); ++n) {
+    auto& errors = made.planet_errors[n];
+    draw(errors.position, tolerances.planet_pin_position, fmt::format("planet {} pin position", n + 1));
+    draw(errors.eccentricity, tolerances.planet_eccentricity, fmt::format("planet {} eccentricity", n + 1));
+  }
+  return made;
+}
+
+ErrorPeriodSharing error_period_sharing(const PlanetaryStage& stage, const std::vector<double>& torque_shares) {
+  constexpr int positions = 16;
+  ErrorPeriodSharing result;
+  const Eigen::Index planets = stage.planets();
+  for (const double share : torque_shares) {
+    const auto loaded = at_share(stage, share);
+    const auto system = assemble(loaded);
+    StaticSolver solver(system);
+    const auto cycles = LinearForces(loaded, system, solver).worst_cycles();
+    auto workspace = system.workspace();
+    double largest = 0;
+    for (const int cycle : cycles) {
+      Eigen::VectorXd mean = Eigen::VectorXd::Zero(planets);
+      for (int p = 0; p < positions; ++p) {
+        (void)solver.solve((cycle + static_cast<double>(p) / positions) / stage.mesh_frequency(), workspace);
+        mean += Eigen::Map<const Eigen::VectorXd>(workspace.force.data(), planets) / positions;
+      }
+      const Eigen::VectorXd force = mean.cwiseAbs();
+      largest = std::max(largest, static_cast<double>(planets) * force.maxCoeff() / force.sum());
+      result.largest_force = std::max(result.largest_force, force.maxCoeff());
+    }
+    result.factors.push_back(largest);
+  }
+  return result;
+}
+
+std::size_t AssemblySharing::nominal() const {
+  return static_cast<std::size_t>(std::find(torque_shares.begin(), torque_shares.end(), 1.0) - torque_shares.begin());
+}
+
+AssemblySharing assembly_sharing(const PlanetaryStage& stage, const StageTolerances& tolerances,
+                                 const AssemblyOptions& options) {
+  if (options.assemblies < 2)
+    throw InputError(
+        fmt::format("load sharing over tolerances needs at least two assemblies, not {}", options.assemblies));
+  for (const double share : options.torque_shares)
+    if (!(share > 0)) throw InputError(fmt::format("a share of the torque must be positive, not {}", share));
+  AssemblySharing result;
+  std::set<double> shares(options.torque_shares.begin(), options.torque_shares.end());
+  shares.insert(1);
+  result.torque_shares = {shares.begin(), shares.end()};
+  auto all = draw_all(stage, tolerances, options, result.torque_shares);
+  result.factors = std::move(all.factors);
+  result.largest_force = all.largest_force;
+  for (const auto& factors : result.factors) result.quantiles.push_back(quantiles_of(factors));
+  const auto at_nominal = [&](const StageTolerances& changed) {
+    return quantiles_of(draw_all(stage, changed, options, {1}).factors.front());
+  };
+  for (const auto& zone : zones) {
+    const double radius = tolerances.*zone.radius;
+    if (radius == 0) continue;
+    StageTolerances alone{.within = tolerances.within}, without = tolerances;
+    alone.*zone.radius = radius;
+    without.*zone.radius = 0;
+    auto& contribution = result.contributions.emplace_back();
+    contribution.tolerance = zone.name;
+    contribution.radius = radius;
+    contribution.alone = at_nominal(alone);
+    contribution.without = at_nominal(without);
+  }
+  if (result.contributions.empty()) throw InputError("load sharing over tolerances needs a tolerance above zero");
+  return result;
+}
+
+}  // namespace annulus::dynamics
