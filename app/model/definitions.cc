@@ -24,6 +24,12 @@ const std::vector<Definition>& definitions() {
        "calls K_γ the mesh load factor. The instantaneous factor takes the forces without the average, and contains "
        "their vibration. The quasi-static factor takes the forces without inertia and damping.",
        "[ISO6336-1]"},
+      {"load_sharing_of_assemblies", "K_γ P50, P95, P99", "Load sharing of assemblies",
+       "P95: 95 % of the assemblies have a K_γ of at most this",
+       "The deviations of each assembly are drawn within the tolerances of the scene. Its K_γ is the quasi-static one, "
+       "the largest over its error period. Every such factor holds for a gearbox; the quantiles hold for a series of "
+       "them. Eccentricities and pin positions are drawn. Pitch, profile and helix deviations are not.",
+       "[ISO1328-1]"},
       {"dynamic_factor", "K_V", "Dynamic factor", "K_V = max over meshes n and instants of |F_n| / |mean of F_n|",
        "The mean is that of the same mesh over the mesh cycle around the instant. K_V therefore contains no load "
        "sharing: the base load of ISO 6336-1 is F_t K_A K_γ. The factor of a stage is the largest of its meshes. A "

@@ -41,12 +41,25 @@ struct SupportInput {
   double sun_torsional = 0, ring_torsional = rigid, carrier_torsional = 0;
 };
 
+enum class ToleranceLaw { normal, uniform };
+
+/// Tolerances of the gears and the carrier, and the assemblies drawn within them.
+struct ToleranceInput {
+  std::optional<int> accuracy_class;                             ///< ISO 1328-1, of all gears
+  std::optional<double> sun_runout, planet_runout, ring_runout;  ///< m, instead of that of the class
+  std::optional<double> planet_pin_position;                     ///< m, diameter of the zone
+  ToleranceLaw distribution = ToleranceLaw::normal;
+  int assemblies = 0, seed = 0;
+  std::vector<double> torque_shares;
+};
+
 /// What the scene of a planetary stage has besides stage, material, errors and dynamics.
 struct PlanetaryInput {
   CarrierInput carrier;
   std::vector<RingInput> rings;
   SupportInput supports;
   MeshInput ring_planet;
+  std::optional<ToleranceInput> tolerances;
 };
 
 }  // namespace annulus::app

@@ -41,6 +41,7 @@ class PlanetaryChecker : KeyChecks {
     single_supports();
     plane_models();
     rim_coupling();
+    tolerances();
   }
 
  private:
@@ -132,6 +133,20 @@ class PlanetaryChecker : KeyChecks {
           {input.line, input.column,
            fmt::format("ring.name = {}: is the name of more than one ring; each needs its own", shown(input.ring))});
     }
+  }
+
+  void tolerances() {
+    if (!scene_.tolerances) return;
+    const auto& t = *scene_.tolerances;
+    const bool any = t.accuracy_class || t.sun_runout.value_or(0) > 0 || t.planet_runout.value_or(0) > 0 ||
+                     t.ring_runout.value_or(0) > 0 || t.planet_pin_position.value_or(0) > 0;
+    const std::string first = "tolerances.assemblies";
+    if (!any)
+      problem(first,
+              "has no tolerance to draw within: give tolerances.accuracy_class, a runout or "
+              "tolerances.planet_pin_position_um above zero");
+    if (usable("stage.planets") && scene_.stage.planets < 2)
+      problem(first, "a single planet shares the load with none: leave [tolerances] out");
   }
 
   void rim_coupling() {

@@ -9,6 +9,7 @@
 #include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_response.h"
+#include "app/systems/planetary/tolerance_sharing.h"
 #include "app/systems/shared/mesh_names.h"
 #include "dynamics/steady_state/integration_cost.h"
 
@@ -63,7 +64,7 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
           .ring = name,
           .size = {.work = work_of_response(scene, tables > 0, ring),
                    .unknowns = static_cast<double>(scene.stage.planets) * std::min(period, asked.value_or(period)),
-                   .motion_s = balances + cycles * per_cycle + surface_s},
+                   .motion_s = balances + cycles * per_cycle + surface_s + tolerance_seconds(scene)},
           // Studies integrate in time only where a number of cycles is asked for.
           .study_s = course.balance_s + once};
 }

@@ -117,6 +117,8 @@ std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeomet
   result->figures = response_figures(response);
   result->reused = reused;
   result->stage = std::move(response);
+  result->tolerances = tolerance_sharing(scene, geometry, ring, stage, sun_mesh, ring_mesh, options);
+  if (result->tolerances) result->figures.add(figures(*result->tolerances));
   result->coupling_effect = effect_of_coupling(scene, stage, sun_mesh, ring_mesh, name, options);
   return result;
 }
@@ -129,6 +131,7 @@ RunResult::RunResult(const SystemRun& of)
     const auto& response = static_cast<const RingResponse&>(*of.responses.at(i));
     ring.response = &response.stage;
     if (response.coupling_effect) ring.coupling_effect = &*response.coupling_effect;
+    if (response.tolerances) ring.tolerances = &*response.tolerances;
   }
 }
 

@@ -11,6 +11,7 @@
 #include "app/report/section.h"
 #include "app/systems/planetary/coupling_effect.h"
 #include "app/systems/planetary/stage_response.h"
+#include "app/systems/planetary/tolerance_sharing.h"
 #include "core/json.h"
 
 /// A run of a planetary stage: one variant per ring.
@@ -20,6 +21,7 @@ namespace annulus::app {
 struct RingResponse final : RunResponse {
   StageResponse stage;
   std::optional<CouplingEffect> coupling_effect{};  ///< absent where the coupling of the planets was not looked at
+  std::optional<ToleranceSharing> tolerances{};     ///< absent without [tolerances]
 };
 
 struct RingResult {
@@ -27,6 +29,7 @@ struct RingResult {
   const MeshResult& mesh;                           ///< ring-planet mesh
   const StageResponse* response = nullptr;          ///< null without dynamics
   const CouplingEffect* coupling_effect = nullptr;  ///< null where the coupling of the planets was not looked at
+  const ToleranceSharing* tolerances = nullptr;     ///< null without [tolerances]
 };
 
 struct RunResult : RunView {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+#include <utility>
+
 #include "app/model/cost_actual.h"
 #include "app/model/mesh_figures.h"
 #include "app/systems/planetary/planetary_model.h"
@@ -72,7 +75,13 @@ class PlanetarySystem final : public GearSystem {
   }
   [[nodiscard]] std::vector<Warning> response_warnings(const SystemRun& run, std::size_t ring) const override {
     const auto& response = static_cast<const RingResponse&>(*run.responses.at(ring));
-    return stage_warnings(response.stage.figures, scene().rings.at(ring).name);
+    const auto& name = scene().rings.at(ring).name;
+    auto list = stage_warnings(response.stage.figures, name);
+    if (response.tolerances) {
+      auto more = tolerance_warnings(*response.tolerances, run.tables_of(ring), name);
+      std::move(more.begin(), more.end(), std::back_inserter(list));
+    }
+    return list;
   }
 
   [[nodiscard]] Json summary(const SystemRun& run) const override { return stage_summary(RunResult(run)); }
@@ -107,6 +116,8 @@ const std::vector<FigureSpec>& all_planetary_figures() {
     specs.insert(specs.end(), sun.begin(), sun.end());
     const auto& model = dynamics::planetary_figures();
     specs.insert(specs.end(), model.begin(), model.end());
+    const auto& assemblies = tolerance_figures();
+    specs.insert(specs.end(), assemblies.begin(), assemblies.end());
     return specs;
   }();
   return list;

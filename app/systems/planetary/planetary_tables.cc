@@ -2,6 +2,7 @@
 
 #include "app/scene/gear_tables.h"
 #include "app/systems/planetary/planetary_scene.h"
+#include "geometry/flank_tolerances.h"
 
 namespace annulus::app {
 
@@ -138,6 +139,59 @@ Table supports_table() {
   return supports.done();
 }
 
+Table tolerances_table() {
+  Declarations tolerances(
+      "tolerances",
+      "Load sharing of many assemblies that are made within these tolerances: K_γ below which 50, 95 and 99 % of them "
+      "stay, at several torques, and what each tolerance contributes. Drawn deviations replace those of [errors] of "
+      "the "
+      "same kind.",
+      &Scene::tolerances);
+  tolerances.study();
+  tolerances
+      .key("accuracy_class", &ToleranceInput::accuracy_class,
+           "Flank tolerance class of ISO 1328-1 of sun, planets and ring. Their eccentricities reach up to half the "
+           "runout tolerance of the class.")
+      .from(geometry::best_flank_class, geometry::worst_flank_class)
+      .absent("no eccentricities but those of the runout keys");
+  for (const auto& [name, member] : {std::pair{"sun", &ToleranceInput::sun_runout},
+                                     {"planet", &ToleranceInput::planet_runout},
+                                     {"ring", &ToleranceInput::ring_runout}})
+    tolerances
+        .key(std::string(name) + "_runout_um", member,
+             std::string("Runout tolerance of the ") + name + " on its bearing; the eccentricity reaches half of it.")
+        .from(0, 1e4)
+        .absent("the runout tolerance of accuracy_class, or no eccentricity");
+  tolerances
+      .key("planet_pin_position_um", &ToleranceInput::planet_pin_position,
+           "Position tolerance of the planet pins: the diameter of the zone in which each axis lies (ISO 1101).")
+      .from(0, 1e4)
+      .absent("no pin position errors");
+  tolerances
+      .choice(
+          "distribution", &ToleranceInput::distribution,
+          {{"normal", ToleranceLaw::normal}, {"uniform", ToleranceLaw::uniform}},
+          "Where a deviation lies in its circular zone. normal: both coordinates normal, their standard deviation a "
+          "third of the radius, cut at the zone; uniform: anywhere in the zone with equal probability. All "
+          "directions are equally probable.")
+      .fallback("normal", "a process that just holds its tolerances");
+  tolerances.key("assemblies", &ToleranceInput::assemblies, "Number of assemblies drawn.")
+      .fallback(1000, "the 99 % quantile with an interval")
+      .from(100, 100000);
+  tolerances.key("seed", &ToleranceInput::seed, "Other seeds give other draws.")
+      .fallback(1, "any number will do")
+      .from(0, 2147483647);
+  tolerances
+      .key("torque_shares", &ToleranceInput::torque_shares,
+           "Torques at which the load sharing is computed, as shares of the torque of [stage]; 1 is always added.")
+      .fallback(std::vector<double>{0.25, 0.5, 0.75, 1, 1.25}, "from light load to overload")
+      .above(0, 10)
+      .longest(20)
+      .not_empty("share")
+      .distinct();
+  return tolerances.done();
+}
+
 Table rim_coupling_key() {
   Declarations lumped("dynamics", "", &Scene::dynamics);
   lumped
@@ -177,6 +231,7 @@ std::vector<Table> planetary_tables() {
           mesh("mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.", &Scene::sun_planet),
           mesh("mesh.ring_planet", "Stiffness of the ring mesh, prescribed instead of computed.", &Scene::ring_planet),
           rim_coupling_key(),
+          tolerances_table(),
           optimised_ring_key()};
 }
 

@@ -3,6 +3,7 @@
 #include "app/model/dynamics_members.h"
 #include "app/systems/planetary/coupling_effect.h"
 #include "app/systems/planetary/stage_response.h"
+#include "dynamics/systems/planetary/sharing_tolerances.h"
 
 /// A planetary stage and what is cached of its responses (core/bytes.h).
 namespace annulus {
@@ -30,6 +31,13 @@ struct Members<dynamics::DynamicResponse> {
                     r.ring_planet, r.cycle_force, r.force_balance_relative);
   }
 };
+
+ANNULUS_MEMBERS(dynamics::Interval, value, low, high);
+ANNULUS_MEMBERS(dynamics::SharingQuantiles, p50, p95, p99);
+ANNULUS_MEMBERS(dynamics::AssemblySharing::Contribution, tolerance, radius, alone, without);
+ANNULUS_MEMBERS(dynamics::AssemblySharing, torque_shares, factors, quantiles, contributions, largest_force);
+ANNULUS_MEMBERS(dynamics::StageTolerances, planet_pin_position, sun_eccentricity, planet_eccentricity,
+                ring_eccentricity, within);
 
 ANNULUS_MEMBERS(app::MeshKindErrors, instantaneous, averaged, quasi_static, peak_factor, dynamic_factor);
 ANNULUS_MEMBERS(app::ResponseErrors, sun_planet, ring_planet);

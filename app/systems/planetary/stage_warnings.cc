@@ -53,6 +53,10 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
                       fmt::format("rigid, because the scene does not mention {}. Soft planet bearings, carriers and "
                                   "rings even out what the planets carry; give a stiffness, or \"rigid\"",
                                   fmt::join(keys, ", "))});
+  if (scene.tolerances && by_default(scene, "tolerances.distribution"))
+    list.push_back({"distribution_assumed", Severity::note,
+                    "deviations within the tolerances are drawn from a normal distribution, because the scene does not "
+                    "mention tolerances.distribution. With \"uniform\" they are larger"});
   warn_of_clearance(list, geometry.sun_mesh(), {"planet", "sun"}, "sun mesh");
   for (const auto& ring : geometry.rings)
     warn_of_clearance(list, ring.set.ring_mesh(), {"planet", "ring"}, "ring mesh of '" + ring.name + "'");

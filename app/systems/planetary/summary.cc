@@ -95,6 +95,7 @@ Json ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
                         {"max_penetration_m", json_number(worst(ring.mesh, sun_mesh, "max_penetration_m"))},
                         {"closure_relative", json_number(worst(ring.mesh, sun_mesh, "closure_relative"))},
                         {"reciprocity_relative", json_number(worst(ring.mesh, sun_mesh, "reciprocity_relative"))}};
+  if (ring.tolerances) json["load_sharing_of_assemblies"] = to_json(*ring.tolerances);
   if (!ring.response) return json;
   const auto& f = ring.response->figures;
   const auto& errors = ring.response->errors;

@@ -114,6 +114,17 @@ class LinearForces {
   std::vector<Eigen::MatrixXd> terms_;
 };
 
+/// The stage without the deviations that are drawn.
+PlanetaryStage without_drawn(PlanetaryStage stage, const StageTolerances& tolerances) {
+  if (tolerances.sun_eccentricity > 0) stage.sun.errors.eccentricity = {};
+  if (tolerances.ring_eccentricity > 0) stage.ring.errors.eccentricity = {};
+  for (auto& errors : stage.planet_errors) {
+    if (tolerances.planet_pin_position > 0) errors.position = {};
+    if (tolerances.planet_eccentricity > 0) errors.eccentricity = {};
+  }
+  return stage;
+}
+
 PlanetaryStage at_share(PlanetaryStage stage, double share) {
   stage.sun_torque *= share;
   return stage;
@@ -211,8 +222,9 @@ AssemblySharing assembly_sharing(const PlanetaryStage& stage, const StageToleran
   result.factors = std::move(all.factors);
   result.largest_force = all.largest_force;
   for (const auto& factors : result.factors) result.quantiles.push_back(quantiles_of(factors));
+  const auto others = without_drawn(stage, tolerances);
   const auto at_nominal = [&](const StageTolerances& changed) {
-    return quantiles_of(draw_all(stage, changed, options, {1}).factors.front());
+    return quantiles_of(draw_all(others, changed, options, {1}).factors.front());
   };
   for (const auto& zone : zones) {
     const double radius = tolerances.*zone.radius;

@@ -21,11 +21,27 @@ std::vector<Verdict> verdicts(const RunResult& result) {
   return compare(*result.reference, result);
 }
 
+/// K_γ that nearly all assemblies keep, beside what standards tabulate.
+Blocks assemblies_sentence(const RunResult& result) {
+  std::vector<Text> rings;
+  for (const auto& ring : result.rings)
+    if (ring.tolerances) {
+      const auto p95 = ring.tolerances->figure(&dynamics::SharingQuantiles::p95, ring.tolerances->sharing.nominal());
+      rings.push_back(result.rings.size() > 1 ? phrase("{} {}", ring.name, measured(p95, 1)) : Text(measured(p95, 1)));
+    }
+  if (rings.empty()) return {};
+  const auto tabulated = tabulated_sharing(result.scene.stage.planets);
+  const auto standards =
+      tabulated ? fmt::format(" Standards tabulate {} for {} planets.", text(*tabulated), tabulated->planets) : "";
+  return paragraph(phrase("Within the tolerances, 95 % of the assemblies have a K_γ of at most {} ({}).{}",
+                          joined(rings, ", "), link("details", "tolerances"), standards));
+}
+
 }  // namespace
 
 Blocks stage_verdict(const RunResult& result) {
   const auto quantities = ring_quantities(result);
-  Blocks blocks = answer_sentences(quantities);
+  Blocks blocks = answer_sentences(quantities) + assemblies_sentence(result);
   const auto all = verdicts(result);
   if (!all.empty()) {
     const auto count = [&](Verdict::Outcome o) {

@@ -36,6 +36,9 @@ struct PlanetLines {
 };
 [[nodiscard]] Pictures planet_lines(const RunResult& result, const PlanetLines& shown, const Text& caption);
 
+// tolerances.cc
+[[nodiscard]] Section tolerances_section(const RunResult& result);  ///< K_γ of assemblies within the tolerances
+
 // geometry.cc
 [[nodiscard]] Section drawings_section(const RunResult& result);  ///< the gears to scale
 /// The transverse section of one ring's stage; `id` makes identifiers unique within a page.

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/systems/planetary/report/stage_report_parts.h"
+
+namespace annulus::app {
+
+namespace {
+
+using dynamics::Interval;
+using dynamics::SharingQuantiles;
+
+/// The quantiles over the torque, with the intervals of the finite number of draws.
+Picture over_torque(const RingResult& ring, const std::optional<TabulatedSharing>& tabulated, double highest) {
+  const auto& sharing = ring.tolerances->sharing;
+  Plot plot{.title = ring.name,
+            .x_label = "torque, share of that of the stage",
+            .y_label = "K_γ",
+            .y_range = Range{1, highest}};
+  std::size_t colour = 0;
+  for (const auto& [label, quantile] : {std::pair{"50 % of the assemblies", &SharingQuantiles::p50},
+                                        {"95 %", &SharingQuantiles::p95},
+                                        {"99 %", &SharingQuantiles::p99}}) {
+    Series line{.label = label, .x = sharing.torque_shares, .colour = colour++};
+    for (const auto& q : sharing.quantiles) {
+      const auto& interval = q.*quantile;
+      line.y.push_back(interval.value);
+      line.low.push_back(interval.low);
+      line.high.push_back(std::isfinite(interval.high) ? interval.high : interval.value);
+    }
+    plot.series.push_back(std::move(line));
+  }
+  if (tabulated) {
+    plot.levels.emplace_back(tabulated->low, "tabulated");
+    if (tabulated->high > tabulated->low) plot.levels.emplace_back(tabulated->high, "");
+  }
+  Picture picture(plot);
+  picture.ring = ring.name;
+  return picture;
+}
+
+PageTable quantiles_table(const RingResult& ring, const std::optional<TabulatedSharing>& tabulated) {
+  PageTable table{.head = {"torque, share", "K_γ P50", "P95", "P99"}, .style = PageTable::Style::numbers};
+  if (tabulated) table.head.emplace_back(fmt::format("tabulated for {} planets", tabulated->planets));
+  const auto& sharing = ring.tolerances->sharing;
+  for (std::size_t i = 0; i < sharing.torque_shares.size(); ++i) {
+    auto& row = table.rows.emplace_back(1, to_text(sharing.torque_shares[i], 3));
+    for (const auto quantile : {&SharingQuantiles::p50, &SharingQuantiles::p95, &SharingQuantiles::p99})
+      row.emplace_back(measured(ring.tolerances->figure(quantile, i), 1));
+    if (tabulated) row.emplace_back(text(*tabulated));
+  }
+  return table;
+}
+
+PageTable contributions_table(const RingResult& ring) {
+  PageTable table{.head = {"tolerance", "K_γ P95 with this one alone", "without it", "share it adds to P95 − 1"},
+                  .style = PageTable::Style::numbers};
+  const auto& sharing = ring.tolerances->sharing;
+  const double all = sharing.quantiles[sharing.nominal()].p95.value;
+  auto sorted = sharing.contributions;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.without.p95.value < b.without.p95.value; });
+  for (const auto& c : sorted)
+    table.rows.push_back({tolerance_text(c), to_text(c.alone.p95.value, 4), to_text(c.without.p95.value, 4),
+                          all > 1 ? fmt::format("{:.0f} %", 100 * (all - c.without.p95.value) / (all - 1)) : "–"});
+  return table;
+}
+
+}  // namespace
+
+Section tolerances_section(const RunResult& result) {
+  Section section{
+      "tolerances", "Load sharing within the tolerances", {}, "Load sharing of assemblies within the tolerances"};
+  if (!result.scene.tolerances || responses_of(result).empty()) return section;
+  const auto& t = *result.scene.tolerances;
+  const auto tabulated = tabulated_sharing(result.scene.stage.planets);
+  section.blocks = paragraph(
+      fmt::format("{} assemblies (seed {}), {} within their zones, in quasi-static equilibrium. K_γ is the largest "
+                  "over planets and "
+                  "error period, the forces averaged over a mesh cycle. {} % of the assemblies stay below P95.",
+                  t.assemblies, t.seed,
+                  t.distribution == ToleranceLaw::normal ? "normally distributed" : "uniformly distributed", 95));
+  double highest = tabulated ? tabulated->high : 1;
+  for (const auto& ring : result.rings)
+    for (const auto& q : ring.tolerances->sharing.quantiles)
+      highest = std::max({highest, q.p99.value, std::isfinite(q.p99.high) ? q.p99.high : 1});
+  highest = 1 + 1.06 * (highest - 1);
+  Pictures pictures{.legend = {{"50 % of the assemblies", 0}, {"95 %", 1}, {"99 %", 2}},
+                    .caption = "Bands: 95 % confidence intervals for the number of assemblies."};
+  for (const auto& ring : result.rings) pictures.list.push_back(over_torque(ring, tabulated, highest));
+  section.blocks += pictures;
+  for (const auto& ring : result.rings) {
+    if (result.rings.size() > 1) section.blocks += heading(ring.name);
+    section.blocks += quantiles_table(ring, tabulated) + contributions_table(ring);
+  }
+  std::string notes =
+      "The contributions hold at the torque of the stage. They do not add up to 100 %: deviations combine as squares "
+      "rather than as sums.";
+  if (tabulated)
+    notes +=
+        " Tabulated: load-sharing factors of standards, by class of tolerance. The standards disagree, and know "
+        "neither the supports nor the ring of this stage.";
+  section.blocks += paragraph(notes);
+  return section;
+}
+
+}  // namespace annulus::app
