@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(supports_that_are_not_mentioned_are_reported) {
   FaultRuns runs("rigid_by_default");
   const auto refused = runs.run("out");
   BOOST_TEST(refused.status == 2);
-  for (const auto* word : {"supports.sun_N_per_m: is required by [dynamics]", "shares nothing out"})
+  for (const auto* word : {"supports.sun_N_per_m: is required by [dynamics]", "does not equalise the planet loads"})
     BOOST_TEST(refused.err.find(word) != std::string::npos, refused.err);
   runs.add("\n[supports]\nsun_N_per_m = \"rigid\"\n");
   const std::string words =
