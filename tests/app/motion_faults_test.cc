@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(lost_energy_tightens_the_tolerance) {
   FaultRuns runs("energy_lost");
   const auto outcome = runs.run("out");
   BOOST_TEST(outcome.status == 0, outcome.err);
-  BOOST_TEST(outcome.err.find("again with a relative tolerance") != std::string::npos, outcome.err);
+  BOOST_TEST(outcome.err.find("repeated with a relative tolerance") != std::string::npos, outcome.err);
   const double balance = runs.ring("out").at("dynamics").at("energy_balance_relative");
   BOOST_TEST(balance <= 0.05);
 }

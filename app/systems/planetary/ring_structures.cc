@@ -236,19 +236,17 @@ void check_structure_in_rim(const Scene& scene, const RingInput& input, const Ri
   };
   const double root = ring.set.ring().root_radius(), rim = ring.outside_radius - root, least = least_rim(scene);
   if (input.sleeve_thickness && *input.sleeve_thickness > (rim - least) * (1 + diameter_rounding))
-    refuse(
-        "sleeve_thickness_mm", *input.sleeve_thickness,
-        fmt::format("must be in range: 0 < value <= {}: the sleeve lies in the rim, which is {} thick, and keeps {} = "
-                    "{} modules from the root",
-                    length_mm(rim - least), length_mm(rim), length_mm(least), geometry::min_circle_distance));
+    refuse("sleeve_thickness_mm", *input.sleeve_thickness,
+           fmt::format("must be in range: 0 < value <= {}: the sleeve lies in the rim, which is {} thick, and must be "
+                       "{} = {} modules away from the root",
+                       length_mm(rim - least), length_mm(rim), length_mm(least), geometry::min_circle_distance));
   const double smallest = 2 * (root + least), largest = 2 * (ring.outside_radius - least);
   if (input.clamp_inner_diameter && (*input.clamp_inner_diameter < smallest * (1 - diameter_rounding) ||
                                      *input.clamp_inner_diameter > largest * (1 + diameter_rounding)))
-    refuse(
-        "clamp_inner_diameter_mm", *input.clamp_inner_diameter,
-        fmt::format("must be in range: {} <= value <= {}: the clamped end faces lie in the rim, and their edge keeps "
-                    "{} = {} modules from root and outside",
-                    length_mm(smallest), length_mm(largest), length_mm(least), geometry::min_circle_distance));
+    refuse("clamp_inner_diameter_mm", *input.clamp_inner_diameter,
+           fmt::format("must be in range: {} <= value <= {}: the clamped end faces lie in the rim, and their edge must "
+                       "be {} = {} modules away from root and outside",
+                       length_mm(smallest), length_mm(largest), length_mm(least), geometry::min_circle_distance));
 }
 
 fem::RingStructure ring_structure(const RingInput& ring) {
