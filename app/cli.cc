@@ -47,7 +47,7 @@ CLI::App* add_command(CLI::App& app, Arguments& arguments, const char* name, con
   command->add_option("scene", arguments.scene, "Scene file (TOML)")->required();
   command
       ->add_option("--set", arguments.settings,
-                   "Another value for a key of the scene, KEY=VALUE: accuracy=0.03, ring.pins=12; as often as wanted")
+                   "Other value for a key of the scene, KEY=VALUE: accuracy=0.03, ring.pins=12; can be repeated")
       ->allow_extra_args(false);
   add_common(*command, arguments);
   return command;
@@ -102,7 +102,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.footer(
       "Examples:\n"
       "  annulus new planetary > my.toml     a scene to start from, every key with its meaning\n"
-      "  annulus plan my.toml                what will be modelled, how long it takes\n"
+      "  annulus plan my.toml                the model and the predicted time\n"
       "  annulus run my.toml                 everything, with the report out/my/report.html\n"
       "'annulus COMMAND --help' describes a command.");
 
@@ -117,11 +117,11 @@ void declare(CLI::App& app, Arguments& arguments) {
   };
   const auto limits = [&](CLI::App* command) {
     command->add_option("--max-memory", arguments.max_memory,
-                        "Refuse what is predicted to need more, and end a run that does: 16GB, 800MB; default "
-                        "the memory of the machine, for the prediction alone");
+                        "Refuse a run that is predicted to need more, and end a run that needs more: 16GB, 800MB; "
+                        "default: the memory of the machine, for the prediction only");
     command->add_option("--max-time", arguments.max_time,
-                        "Refuse what is predicted to take longer, and end a run that does: 2h, 3d; default a "
-                        "week, for the prediction alone");
+                        "Refuse a run that is predicted to take longer, and end a run that takes longer: 2h, 3d; "
+                        "default: a week, for the prediction only");
     return command;
   };
   const auto cache = [&](CLI::App* command) {
@@ -135,8 +135,8 @@ void declare(CLI::App& app, Arguments& arguments) {
     command->add_flag("--json", arguments.json, "Print the results as JSON (summary.json) instead of a table");
     return command;
   };
-  examples(json(cache(limits(
-               budget(out(add_command(app, arguments, "run", "Everything the scene asks for, and the report")))))),
+  examples(json(cache(
+               limits(budget(out(add_command(app, arguments, "run", "Runs the whole scene and writes the report")))))),
            "  annulus run my.toml\n"
            "  annulus run my.toml -o results --threads 4\n"
            "  annulus run my.toml --budget 30s      as accurate as half a minute allows\n"
@@ -144,11 +144,12 @@ void declare(CLI::App& app, Arguments& arguments) {
   examples(json(cache(limits(
                out(add_command(app, arguments, "solve", "Meshes, loaded transmission error, stiffness tables"))))),
            "  annulus solve my.toml -o results");
-  examples(json(cache(limits(
-               out(add_command(app, arguments, "dynamics", "The lumped model from tables, solved first if missing"))))),
-           "  annulus dynamics faster.toml          takes cached tables of any earlier run that fit");
+  examples(
+      json(cache(limits(out(add_command(
+          app, arguments, "dynamics", "The lumped model from stiffness tables; missing tables are computed first"))))),
+      "  annulus dynamics faster.toml          uses cached tables of earlier runs");
   examples(cache(limits(out(add_command(app, arguments, "tradeoff",
-                                        "Every way to compute the stage measured: error against time and memory")))),
+                                        "Measures all ways to compute the stage: error against time and memory")))),
            "  annulus tradeoff my.toml              then open out/my/tradeoff.html");
   auto* compare =
       app.add_subcommand("compare", "Finished runs side by side: results, errors, inputs that differ, cost");
@@ -160,15 +161,15 @@ void declare(CLI::App& app, Arguments& arguments) {
   examples(compare,
            "  annulus compare out/my out/faster\n"
            "  annulus compare out/held out/pins24 out/pins12 -o pins.html");
-  auto* plan = limits(budget(add_command(
-      app, arguments, "plan", "What will be modelled and why, predicted time and memory; computes nothing")));
-  plan->add_flag("--inputs", arguments.inputs, "Every input with its origin, all reasons and remarks besides");
+  auto* plan = limits(budget(
+      add_command(app, arguments, "plan", "The model with reasons, predicted time and memory; computes nothing")));
+  plan->add_flag("--inputs", arguments.inputs, "Also every input with its origin, all reasons and remarks");
   plan->add_flag("--json", arguments.json, "As JSON");
   examples(plan,
            "  annulus plan my.toml\n"
            "  annulus plan my.toml --json | jq .cost");
   auto* check = add_command(app, arguments, "check", "Check the scene only, and print its warnings");
-  check->add_flag("--strict", arguments.strict, "Fail on warnings; notes are no warnings");
+  check->add_flag("--strict", arguments.strict, "Fail on warnings; notes do not count as warnings");
   check->add_flag("--json", arguments.json, "Warnings as JSON");
   examples(check, "  annulus check my.toml\n  annulus check my.toml --strict");
 
@@ -178,7 +179,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   for (const auto& f : export_formats()) formats += (formats.empty() ? "" : "|") + std::string(f.name);
   send->add_option("--to", arguments.format, "Format: " + formats)->required();
   send->add_option("-o,--out", arguments.out, "File to write; default beside the source, with the format's ending");
-  send->add_option("--ring", arguments.ring, "Which ring of a scene, where there are several");
+  send->add_option("--ring", arguments.ring, "Ring of the scene, if it has several");
   add_common(*send, arguments);
   std::string what;
   for (const auto& f : export_formats()) what += fmt::format("  {:9} {:11} {}\n", f.name, f.ending, f.what);
@@ -191,16 +192,16 @@ void declare(CLI::App& app, Arguments& arguments) {
   auto* fresh = app.add_subcommand("new", "Writes a commented scene to standard output");
   fresh->add_option("kind", arguments.kind, "Kind of stage: planetary, helical_pair, two_k_v");
   fresh->add_option("--rexs", arguments.rexs, "Fill it with the gear data of this REXS file");
-  fresh->add_flag("--minimal", arguments.minimal, "A planetary stage in as few lines as it needs");
+  fresh->add_flag("--minimal", arguments.minimal, "A planetary stage with as few lines as possible");
   add_common(*fresh, arguments);
   examples(fresh,
            "  annulus new planetary > my.toml\n"
            "  annulus new --minimal > my.toml       25 lines\n"
            "  annulus new --rexs gearbox.rexs > my.toml");
 
-  auto* explain_key = app.add_subcommand("explain", "Keys of a scene file, results, and the words they use");
+  auto* explain_key = app.add_subcommand("explain", "Explains keys of a scene file, results and terms");
   explain_key->add_option("key", arguments.key,
-                          "Key or table of a scene, key of a result, or a word such as K_V; absent: all keys");
+                          "Key or table of a scene, key of a result, or a term such as K_V; absent: all keys");
   auto* markdown = explain_key->add_flag("--markdown", arguments.markdown, "The scene reference as Markdown");
   explain_key->add_flag("--definitions", arguments.definitions, "All definitions as Markdown")->excludes(markdown);
   add_common(*explain_key, arguments);
@@ -209,8 +210,8 @@ void declare(CLI::App& app, Arguments& arguments) {
            "  annulus explain supports\n"
            "  annulus explain K_V");
 
-  auto* cached = app.add_subcommand("cache", "Cached results: what there is, or remove it");
-  cached->add_option("folder", arguments.cache, "Folder of the cache; default the one that runs use");
+  auto* cached = app.add_subcommand("cache", "Lists or removes cached results");
+  cached->add_option("folder", arguments.cache, "Folder of the cache; default: the cache that runs use");
   cached->add_flag("--clear", arguments.clear, "Remove all cached results");
   add_common(*cached, arguments);
   examples(cached,
@@ -264,8 +265,7 @@ void check_system_limits(const std::string& command, const Arguments& arguments)
 int parse_and_run(int argc, char** argv) {
   Arguments arguments;
   arguments.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  CLI::App app("What the structure of a ring gear does to load sharing and vibration of a planetary gear set.",
-               "annulus");
+  CLI::App app("Effect of the ring gear structure on load sharing and vibration of planetary gear sets.", "annulus");
   declare(app, arguments);
   const auto fail = [](const std::string& message, ExitStatus status) {
     log::error(message);

@@ -233,7 +233,7 @@ void compare_command(const Arguments& arguments) {
   const std::filesystem::path page = arguments.out.empty() ? "comparison.html" : arguments.out;
   const auto table = std::filesystem::path(page).replace_extension(".csv");
   if (page.extension() != ".html")
-    throw InputError(fmt::format("--out {}: names the page; give it the ending .html", page.string()));
+    throw InputError(fmt::format("--out {}: is the name of the page; use the ending .html", page.string()));
   check_out(page.parent_path().empty() ? "." : page.parent_path());
   for (const auto& file : {page, table})
     if (std::filesystem::is_directory(file)) throw InputError(fmt::format("--out {}: is a folder", file.string()));
@@ -295,7 +295,8 @@ void export_command(const Arguments& arguments) {
 void cache_command(const Arguments& arguments) {
   if (arguments.cache.empty() && user_cache().empty())
     throw InputError(
-        "each run has its own cache here (ANNULUS_CACHE is empty, or no home is known); name one: OUT/cache");
+        "each run has its own cache (ANNULUS_CACHE is empty, or the home folder is not known); give the cache of a "
+        "run: OUT/cache");
   const auto folder = cache_of(arguments, {});
   if (arguments.clear) ResultStore::clear(folder);
   constexpr double MB = 1e-6;

@@ -63,7 +63,7 @@ Csv parsed(std::istream& stream, const std::filesystem::path& file) {
   while (std::getline(stream, text)) {
     ++line;
     // A line is written whole or not at all: without its end, its last number may have lost digits.
-    if (stream.eof()) throw at_line(file, line, "the last line has no end; is the file whole?");
+    if (stream.eof()) throw at_line(file, line, "the last line has no end; is the file complete?");
     const auto content = trimmed(text);
     if (content.empty()) {
       ended = true;  // blank lines are fine at the end, a hole in the data is not

@@ -121,7 +121,7 @@ void RingCoupling::write_csv(const std::filesystem::path& compliance_file,
   double lowest = 0;
   for (const auto& mode : modes) {
     if (mode.closing.size() != static_cast<std::size_t>(ring_teeth))
-      refuse(fmt::format("a mode has {} closings where the ring has {} teeth", mode.closing.size(), ring_teeth));
+      refuse(fmt::format("a mode has {} deflections; the ring has {} teeth", mode.closing.size(), ring_teeth));
     refuse(complaint(mode, lowest, ring_teeth));
     lowest = mode.frequency;
     auto& row = shapes.rows.emplace_back(std::vector<double>{mode.frequency, static_cast<double>(mode.waves),
@@ -158,7 +158,7 @@ RingCoupling RingCoupling::read_csv(const std::filesystem::path& compliance_file
     const double expected = static_cast<double>(i) / result.per_cycle;
     // Written with fewer digits they are still the same positions.
     if (!(std::abs(csv.rows[i][column[0]] - expected) <= 1e-9 * (1 + expected)))
-      refuse(csv, i, fmt::format("ring_position {} where {} is due", csv.rows[i][column[0]], expected));
+      refuse(csv, i, fmt::format("ring_position {} instead of {}", csv.rows[i][column[0]], expected));
     auto& matrix = result.compliance.emplace_back(result.planets, result.planets);
     for (int n = 0; n < result.planets; ++n)
       for (int m = 0; m < result.planets; ++m) matrix(n, m) = csv.rows[i][column[1 + n * result.planets + m]];

@@ -107,7 +107,7 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
   for (const auto& name : table_columns) {
     if (std::find(csv.columns.begin(), csv.columns.end(), name) == csv.columns.end())
       throw csv.at_columns(
-          fmt::format("is no stiffness table: no column '{}'; there are: {}", name, csv.column_names()));
+          fmt::format("is not a stiffness table: no column '{}'; there are: {}", name, csv.column_names()));
     column.push_back(csv.column(name));
   }
   std::vector<std::pair<std::size_t, double ErrorParts::*>> part_columns;
@@ -123,8 +123,8 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
   // A table that was cut short between its lines would be another one.
   const auto count = csv.header_value("rows");
   if (count && *count != std::to_string(csv.rows.size()))
-    refuse(csv.rows.size() - 1,
-           fmt::format("{} rows where the header has {}; is the file whole?", csv.rows.size(), count->substr(0, 20)));
+    refuse(csv.rows.size() - 1, fmt::format("{} rows where the header has {}; is the file complete?", csv.rows.size(),
+                                            count->substr(0, 20)));
 
   // The axes as the file shows them: loads run fastest, then phases, then positions.
   const std::size_t rows = csv.rows.size();

@@ -89,7 +89,7 @@ class Curves {
     const auto unloaded = find(csv, {{"unloaded_te_m", 1}, {"unloaded_te_um", units::um}});
     const auto error = find(csv, {{"error_relative", 1}});
     const auto refuse = [&](const std::string& what) {
-      throw csv.at_columns(fmt::format("is no stiffness table: {}; there are: {}", what, csv.column_names()));
+      throw csv.at_columns(fmt::format("is not a stiffness table: {}; there are: {}", what, csv.column_names()));
     };
     if (!phase) refuse("no column mesh_phase, mesh_phase_deg or mesh_cycles");
     if (!stiffness && !lte) refuse("no column stiffness_N_per_m, stiffness_N_per_um, lte_m or lte_um");
@@ -113,7 +113,7 @@ class Curves {
         refuse_row(i, "the stiffness has to be above zero");
       s.deflection_per_newton = stiffness ? 1 / value(stiffness, 0) : (value(lte, 0) - s.unloaded) / force;
       if (!(s.deflection_per_newton >= 1e-30 && s.deflection_per_newton <= 1e3))
-        refuse_row(i, "lte has to exceed unloaded_te: the load closes the mesh");
+        refuse_row(i, "lte has to exceed unloaded_te: the load deflects the mesh");
       by_load[force].push_back(s);
     }
     double last = 0;
@@ -140,7 +140,11 @@ class Curves {
     if (std::abs(end.cycles - period) <= same_phase) {
       const double a = end.deflection_per_newton, b = samples.front().deflection_per_newton;
       if (samples.size() > 1 && samples.front().cycles <= same_phase && std::abs(a - b) > closing_tolerance * b)
-        refuse_row(end.line, fmt::format("the end of the period is not its beginning: {:.4g} of it", a / b));
+        refuse_row(
+            end.line,
+            fmt::format(
+                "the deflection at the end of the period is {:.4g} of that at its beginning; they have to be equal",
+                a / b));
       samples.pop_back();
     }
     if (static_cast<double>(samples.size()) < 4 * period)
@@ -185,7 +189,7 @@ StiffnessTable import_table(const std::filesystem::path& file, const std::string
            : std::max(least_phases, static_cast<int>(std::ceil(static_cast<double>(most) / positions)));
   const int count = per_cycle * positions;
   if (static_cast<std::size_t>(count) * curves.by_load.size() > most_entries)
-    throw InputError(fmt::format("{}:1: {} loads at {} places make more than {} entries", file.string(),
+    throw InputError(fmt::format("{}:1: {} loads at {} positions make more than {} entries", file.string(),
                                  curves.by_load.size(), count, most_entries));
 
   // [load][place]

@@ -170,8 +170,8 @@ void GearPair::check_tips() const {
       internal() ? wheel_.tip_radius() - a - pinion_.root_radius() : a - wheel_.tip_radius() - pinion_.root_radius();
   if (std::min(at_wheel_root, at_planet_root) <= 0) {
     throw GeometryError(
-        fmt::format("{}: a tip runs into a root: clearance {:.4f} mm at the root of the {}, {:.4f} mm at the root of "
-                    "the planet; reduce the tip or root diameters",
+        fmt::format("{}: a tip touches a root: clearance {:.4f} mm at the root of the {}, {:.4f} mm at the root of the "
+                    "planet; reduce the tip or root diameters",
                     name, at_wheel_root / units::mm, wheel_word, at_planet_root / units::mm));
   }
 }
@@ -196,7 +196,7 @@ void GearPair::check_internal_tips() const {
     const double ahead = ring_corner + (planet_angle + planet_corner) * ratio - ring_angle;
     if (ahead < 0) {
       throw GeometryError(
-          fmt::format("{}: the tips foul each other by {:.4f} mm where the planet's teeth leave the ring (too small a "
+          fmt::format("{}: the tips interfere by {:.4f} mm where the planet's teeth leave the ring (too small a "
                       "difference of teeth); reduce the planet's tip diameter or enlarge the ring's",
                       name, -ahead * wheel_.tip_radius() / units::mm));
     }

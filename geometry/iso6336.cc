@@ -15,7 +15,7 @@ namespace {
 
 void require_spur(const Gear& gear) {
   if (gear.helix_angle() != 0)
-    throw GeometryError(fmt::format("ISO 6336 figures are those of spur gears; the helix angle is {:.4f} deg",
+    throw GeometryError(fmt::format("the ISO 6336 formulas here are for spur gears; the helix angle is {:.4f} deg",
                                     gear.helix_angle() / units::deg));
 }
 

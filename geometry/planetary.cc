@@ -58,12 +58,12 @@ PlanetarySet::PlanetarySet(const Gear& sun, const Gear& planet, const Gear& ring
     const double step = std::round(angle / assembly_angle());
     if (std::abs(angle - step * assembly_angle()) > angle_tolerance) {
       const double below = std::floor(angle / assembly_angle());
-      throw GeometryError(fmt::format(
-          "assembly condition violated: planet {} at {:.7g} degrees does not fit between the teeth of sun and "
-          "ring: with {} + {} teeth it fits every 360 / {} = {:.6g} degrees; the nearest places are {:.6f} "
-          "and {:.6f} degrees",
-          n + 1, angle / units::deg, sun.teeth(), ring.teeth(), whole_turn(), assembly_angle() / units::deg,
-          below * assembly_angle() / units::deg, (below + 1) * assembly_angle() / units::deg));
+      throw GeometryError(
+          fmt::format("assembly condition violated: planet {} at {:.7g} degrees does not fit between the teeth of sun "
+                      "and ring: with {} + {} teeth it fits every 360 / {} = {:.6g} degrees; the nearest positions are "
+                      "{:.6f} and {:.6f} degrees",
+                      n + 1, angle / units::deg, sun.teeth(), ring.teeth(), whole_turn(), assembly_angle() / units::deg,
+                      below * assembly_angle() / units::deg, (below + 1) * assembly_angle() / units::deg));
     }
     steps_.push_back(static_cast<int>(step));
   }

@@ -56,12 +56,11 @@ void RootFillet::generate(const Gear& gear) {
   const double setback = (1 - std::sin(alpha)) / std::cos(alpha);
   radius_ = std::min(p.root_fillet_factor * m, (half_tip - min_root_land * m) / setback);
   if (radius_ < min_radius * m) {
-    throw GeometryError(fmt::format(
-        "the root of the external gear with {} teeth cannot be generated: the rack tooth that cuts the root diameter "
-        "{:.4f} mm is {:.4f} mm wide at its tip, too narrow even for the smallest root fillet, {} modules; use a "
-        "larger "
-        "root diameter or a smaller pressure angle",
-        p.teeth, 2 * root_radius_ / units::mm, 2 * half_tip / units::mm, min_radius));
+    throw GeometryError(
+        fmt::format("the root of the external gear with {} teeth cannot be generated: the rack tooth for the root "
+                    "diameter {:.4f} mm is {:.4f} mm wide at its tip. This is too narrow for the smallest root fillet "
+                    "of {} modules; use a larger root diameter or a smaller pressure angle",
+                    p.teeth, 2 * root_radius_ / units::mm, 2 * half_tip / units::mm, min_radius));
   }
   corner_x_ = (half_tip - radius_ * setback) * widening;
   corner_depth_ = reference_radius_ - root_radius_ - radius_;

@@ -86,7 +86,7 @@ std::string unknown_inputs_text(const std::vector<ComparedRun>& runs) {
   for (const auto& run : runs)
     if (!run.inputs_known) names += (names.empty() ? "" : ", ") + run.name;
   return names.empty() ? ""
-                       : "The inputs are not known of " + names + ": an earlier version ran it; run its scene again.";
+                       : "Inputs not known for " + names + ": the run is from an earlier version; run its scene again.";
 }
 
 }  // namespace annulus::app

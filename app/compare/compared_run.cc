@@ -46,14 +46,13 @@ Json read_summary(const fs::path& folder) {
   if (!fs::exists(folder, error)) refuse("there is no such folder", give_one);
   if (!fs::is_directory(folder, error)) refuse("is not a folder", give_one);
   const auto unfinished = [&](const std::string& why) {
-    return InputError(
-        fmt::format("{0}: its run is not finished ({1}); 'annulus run SCENE -o {0}' with its scene goes on "
-                    "where it stopped, then compare",
-                    folder.string(), why));
+    return InputError(fmt::format(
+        "{0}: its run is not finished ({1}); continue it with 'annulus run SCENE -o {0}' and its scene, then compare",
+        folder.string(), why));
   };
   if (!fs::exists(file, error)) {
     if (has_begun(folder)) throw unfinished("no summary.json");
-    refuse("holds no run (no summary.json)", give_a_run);
+    refuse("contains no run (no summary.json)", give_a_run);
   }
   if (fs::file_size(file, error) > largest_summary || error)
     throw InputError(fmt::format("{}: cannot be read or is larger than {} bytes; run its scene again", file.string(),
@@ -108,7 +107,7 @@ ComparedRun run_of(const Json& json, const fs::path& folder) {
   bool has_results = false;
   for (const auto& variant : run.variants)
     for (const auto& entry : variant.figures.entries()) has_results |= std::isfinite(entry.figure.value);
-  if (!has_results) throw InputError("it holds no results");
+  if (!has_results) throw InputError("it contains no results");
   for (const auto& [stage, seconds] : json.at("timings_s").items()) run.timings.emplace_back(stage, seconds);
   run.peak_memory_MB = json.at("peak_memory_MB");
   if (json.contains("reuse")) run.read_back = json.at("reuse").at("reused").size();
@@ -165,10 +164,9 @@ std::vector<ComparedRun> read_finished_runs(const std::vector<std::string>& fold
   for (const auto& folder : folders) {
     runs.push_back(read_run(folder));
     if (runs.back().kind != runs.front().kind)
-      throw InputError(
-          fmt::format("{}: is a stage of kind {}, {} one of kind {}: they have no figures in common; "
-                      "compare stages of one kind",
-                      folder, runs.back().kind, folders.front(), runs.front().kind));
+      throw InputError(fmt::format(
+          "{}: is a stage of kind {}, {} one of kind {}: they have no common results; compare stages of one kind",
+          folder, runs.back().kind, folders.front(), runs.front().kind));
   }
   name_runs(runs, places);
   return runs;

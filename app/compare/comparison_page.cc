@@ -39,13 +39,13 @@ Section figures_part(const Comparison& comparison) {
     if (quantity.has_spread) add_row(table, quantity.shown.name + spread_words, quantity.spreads);
     add_row(table, quantity.shown.name + (quantity.has_spread ? nominal_words : ""), quantity.cells);
   }
-  return {"figures", "Results",
-          paragraph(
-              "± is the estimated numerical error; it does not contain the uncertainty of the inputs. A value without "
-              "one is exact, as given, or its error is not known; the differences tell which. Where phases of errors "
-              "or other inputs are not known, the spread over samples is the answer, and the nominal value one of "
-              "them.") +
-              table};
+  return {
+      "figures", "Results",
+      paragraph(
+          "± is the estimated numerical error; it does not contain the uncertainty of the inputs. A value without ± is "
+          "exact or prescribed, or its error is not known; the differences state which. If phases of errors or other "
+          "inputs are not known, the result is the spread over samples. The nominal value is one of them.") +
+          table};
 }
 
 Section differences_part(const Comparison& comparison) {
@@ -56,8 +56,9 @@ Section differences_part(const Comparison& comparison) {
       table.rows.push_back({quantity.shown.name, joined({texts.begin(), texts.end()}, line_break())});
   if (!table.rows.empty())
     section.blocks =
-        paragraph(phrase("Against {}. A difference that is not larger than both error bars together says nothing.",
-                         bold(comparison.variants.front()))) +
+        paragraph(phrase(
+            "Compared with {}. A difference is not significant if it is not larger than both error bars together.",
+            bold(comparison.variants.front()))) +
         table;
   return section;
 }
@@ -96,7 +97,8 @@ Section cost_part(const std::vector<ComparedRun>& runs) {
   }
   return {
       "cost", "Time and memory",
-      paragraph("Wall time of the last run of each scene; results that were read back from an earlier run cost none.") +
+      paragraph(
+          "Wall time of the last run of each scene; results that were read back from an earlier run cost no time.") +
           table};
 }
 
@@ -187,7 +189,7 @@ Page comparison_page(const std::vector<ComparedRun>& runs) {
     scenes.items.push_back(bold(run.name) + ": " + run.title);
   }
   Blocks answer = answer_sentences(plain);
-  if (answer.empty()) answer = paragraph("These runs hold neither stiffness nor load sharing in common.");
+  if (answer.empty()) answer = paragraph("These runs have no common stiffness and no common load sharing.");
   return {
       .title = "Comparison of " + enumerated(names).plain(),
       .sub = fmt::format("annulus {} · {} finished runs", version(), runs.size()),

@@ -31,12 +31,13 @@ bool has_column(const Csv& csv, const std::string& name) {
 /// The matrices of a ring reduced to its teeth; the stiffness is the inverse of the compliance in the file.
 NamedArrays ring_matrices(const Csv& csv) {
   const auto teeth = csv.rows.size();
-  if (csv.columns.size() != teeth + 1) throw InputError("is no square matrix");
+  if (csv.columns.size() != teeth + 1) throw InputError("is not a square matrix");
   Eigen::MatrixXd compliance(teeth, teeth);
   for (std::size_t i = 0; i < teeth; ++i)
     for (std::size_t j = 0; j < teeth; ++j) compliance(i, j) = csv.rows[i][j + 1];
   const Eigen::LLT<Eigen::MatrixXd> factor(compliance);
-  if (factor.info() != Eigen::Success) throw InputError("the compliance is not positive definite; is the file whole?");
+  if (factor.info() != Eigen::Success)
+    throw InputError("the compliance is not positive definite; is the file complete?");
   const Eigen::MatrixXd stiffness =
       factor.solve(Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(teeth), static_cast<Eigen::Index>(teeth)));
   NamedArrays all{csv.header, {}};
@@ -77,9 +78,9 @@ void export_table(const std::filesystem::path& source, const ExportFormat& forma
                                : write_file(file, format.table_text(table));
   }
   if (!plain && !format.write_arrays)
-    throw InputError(
-        fmt::format("{}: is no stiffness table, and {} takes nothing else; csv, hdf5 and matlab take any table",
-                    source.string(), format.name));
+    throw InputError(fmt::format(
+        "{}: is not a stiffness table, and {} takes only stiffness tables; csv, hdf5 and matlab take any table",
+        source.string(), format.name));
   const bool matrix = has_column(csv, "tooth") && has_column(csv, "compliance_tooth_0_m_per_N");
   try {
     if (plain) return write_plain_csv(file, matrix ? stiffness_csv(csv) : csv);

@@ -20,7 +20,7 @@ void write_png(const std::filesystem::path& svg, const std::filesystem::path& pn
   if (!handle) {
     const std::string why = error != nullptr ? error->message : "unknown";
     g_clear_error(&error);
-    throw InputError(fmt::format("{}: is no picture: {}", svg.string(), why));
+    throw InputError(fmt::format("{}: is not a picture: {}", svg.string(), why));
   }
   gboolean has_box = FALSE;
   RsvgRectangle box{};

@@ -154,7 +154,7 @@ class Filler {
     if (value) scene_.values[key] = {toml_text(Value(*value)), remark};
   }
   void put_count(const std::string& key, double value) {
-    if (value > 1e6) throw file_.refusal(fmt::format("{} = {} is no count that a scene can hold", key, value));
+    if (value > 1e6) throw file_.refusal(fmt::format("{} = {} is not possible in a scene", key, value));
     scene_.values[key] = {std::to_string(std::lround(value)), ""};
   }
   void put_text(const std::string& key, const std::string& text) { scene_.values[key] = {toml_text(Value(text)), ""}; }
@@ -169,7 +169,7 @@ class Filler {
       if (find_parameter(key) == nullptr) continue;
       if (!is_one_value(text))
         throw file_.refusal(
-            fmt::format("component {}: {} = '{}' cannot stand in a scene", c.id, shown(id), shown(text)));
+            fmt::format("component {}: {} = '{}' is not possible in a scene", c.id, shown(id), shown(text)));
       scene_.values[key] = {text, ""};
     }
   }
@@ -187,7 +187,7 @@ class Filler {
     const bool turned = internal && *teeth < 0;
     if (shift)
       put(table + ".profile_shift", turned && *shift != 0 ? -*shift : *shift,
-          internal && !turned ? "sign as in the REXS file, whose number of teeth is positive: check it" : "");
+          internal && !turned ? "sign as in the REXS file, where the number of teeth is positive: check it" : "");
     for (const auto& [key, name] :
          {std::pair{"tip_diameter_mm", "tip_diameter"}, {"root_diameter_mm", "root_diameter"}})
       if (const auto value = file_.number(c, name, "mm")) put(table + "." + key, std::abs(*value));
@@ -228,7 +228,7 @@ void read_planetary(const RexsFile& file, const std::vector<StageRelation>& stag
     if (is_ring(s.second)) rings.insert(s.second), planets.insert(s.first);
   }
   if (rings.size() != 1)
-    throw file.refusal(fmt::format("{} ring gears mesh; a scene can be made of a stage with one", rings.size()));
+    throw file.refusal(fmt::format("{} ring gears are in mesh; a scene needs a stage with one", rings.size()));
   std::optional<double> distance;
   int planetary = 0;
   for (const auto& s : stages) {
@@ -240,7 +240,8 @@ void read_planetary(const RexsFile& file, const std::vector<StageRelation>& stag
     distance = file.number(file.component(s.stage), "center_distance", "mm");
   }
   if (suns.size() != 1)
-    throw file.refusal(fmt::format("{} gears mesh with the planets beside the ring; a scene has one sun", suns.size()));
+    throw file.refusal(
+        fmt::format("{} gears other than the ring mesh with the planets; a scene has one sun", suns.size()));
   fill.put_count("stage.planets", static_cast<double>(planets.size()));
   const auto &sun = file.component(*suns.begin()), &planet = file.component(*planets.begin()),
              &ring = file.component(*rings.begin());

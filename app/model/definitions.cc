@@ -33,13 +33,13 @@ const std::vector<Definition>& definitions() {
       {"dynamic_factor", "K_V", "Dynamic factor", "K_V = max over meshes n and instants of |F_n| / |mean of F_n|",
        "The mean is that of the same mesh over the mesh cycle around the instant. K_V therefore contains no load "
        "sharing: the base load of ISO 6336-1 is F_t K_A K_γ. The factor of a stage is the largest of its meshes. A "
-       "planet that carries little has a small mean, and its K_V may be large while its forces are small; the peak "
+       "planet that carries little load has a small mean. Its K_V may be large while its forces are small. The peak "
        "factor shows whether this matters.",
        "[ISO6336-1]"},
       {"peak_factor", "K_γ K_V", "Peak factor", "peak factor = max over meshes n and instants of |F_n| / F",
        "The largest mesh force over the nominal mesh force F. It contains load sharing and dynamics together. It is at "
-       "most the product of K_γ and K_V, and less where the planet with the largest share is not the one that vibrates "
-       "most. Do not multiply it by K_γ again.",
+       "most the product of K_γ and K_V. It is less if the planet with the largest share does not vibrate most. Do not "
+       "multiply it by K_γ again.",
        "[ISO6336-1]"},
       {"contact_loss", "", "Time without contact", "largest over the meshes of (time in which no tooth touches) / time",
        "Teeth separate where the vibration exceeds the mean deflection. Several motions may then exist.", ""},
@@ -63,25 +63,25 @@ const std::vector<Definition>& definitions() {
        "the mesh cycles at the nominal load.",
        ""},
       {"stiffness_ripple", "", "Ripple of the stiffness", "(k_max − k_min) / k_mean over the mesh cycles",
-       "Of the secant stiffness at the nominal load.", ""},
+       "The ripple is that of the secant stiffness at the nominal load.", ""},
       {"contact_ratio", "ε_α", "Transverse contact ratio", "ε_α = length of the path of contact / base pitch",
-       "Of the gears without load.", "[ISO21771]"},
+       "The contact ratio is that of the gears without load.", "[ISO21771]"},
       {"root_stress", "", "Root stress", "largest over the fillet and the mesh cycles",
-       "From the finite-element solution at the nominal load, for the first principal stress (tension) and for von "
-       "Mises. "
-       "It has no error estimate yet.",
+       "The stress is that of the finite-element solution at the nominal load: first principal stress (tension) and "
+       "von Mises stress. It has no error estimate yet.",
        ""},
       {"rim_stress", "", "Rim stress", "largest over the free outside of the rim and the mesh cycles",
-       "Von Mises, from the finite-element solution at the nominal load. It has no error estimate yet.", ""},
+       "The stress is the von Mises stress of the finite-element solution at the nominal load. It has no error "
+       "estimate yet.",
+       ""},
       {"natural_frequency", "f", "Natural frequency", "K φ = (2π f)² M φ",
-       "Undamped, at rest, with the mean tangent stiffness of the meshes at the nominal load.", ""},
+       "The system is undamped and at rest, with the mean tangent stiffness of the meshes at the nominal load.", ""},
       {"error_period", "", "Error period", "least common multiple of the periods of all meshes and errors",
        "The time after which the excitation of a stage repeats, in mesh cycles. A periodic steady state repeats after "
-       "it. "
-       "Results of a motion that does not are those of its last mesh cycles.",
+       "this period. If a motion does not repeat, its results are those of its last mesh cycles.",
        ""},
-      {"torsional_stiffness", "", "Torsional stiffness", "output torque / twist of the output, the input held",
-       "Mean over a crank turn.", ""},
+      {"torsional_stiffness", "", "Torsional stiffness", "output torque / twist of the output, with the input fixed",
+       "The stiffness is the mean over a crank turn.", ""},
       {"error_bar", "±", "Numerical error",
        "sum of the parts: discretisation, contact, condensation, interpolation, "
        "integration, model",
@@ -90,8 +90,7 @@ const std::vector<Definition>& definitions() {
        "the uncertainty of the inputs.",
        ""},
       {"spread", "", "Spread", "median, and 5 % to 95 % of the samples",
-       "Where inputs are not known, such as the phases of errors, the answer is a distribution. The nominal value is "
-       "one "
+       "If inputs are not known, such as the phases of errors, the result is a distribution. The nominal value is one "
        "of its samples and need not be a likely one.",
        ""}};
   return list;

@@ -112,14 +112,13 @@ void check_limits(const Scene& scene, const RunLimits& limits, int threads, bool
   const auto quadratic = [&](const CostStep& step) { return step.quadratic ? at_worst : ""; };
   if (largest_MB > limits.memory_MB)
     throw SolverError(
-        fmt::format("{}: refused: predicted to need {} of memory{}, the limit is {} (--max-memory); most goes "
-                    "into the {}: {}",
+        fmt::format("{}: refused: predicted to need {} of memory{}, the limit is {} (--max-memory). The largest part "
+                    "is for the {}: {}",
                     scene.file.string(), memory_text(largest_MB), quadratic(*largest), memory_text(limits.memory_MB),
                     largest->label, largest->cause));
   if (seconds > limits.seconds)
     throw SolverError(
-        fmt::format("{}: refused: predicted to take {}{}, the limit is {} (--max-time); {} of it go into the "
-                    "{}: {}",
+        fmt::format("{}: refused: predicted to take {}{}, the limit is {} (--max-time). Of it, {} are for the {}: {}",
                     scene.file.string(), duration_text(seconds), quadratic(*longest), duration_text(limits.seconds),
                     duration_text(longest_s), longest->label, longest->cause));
 }
@@ -132,12 +131,11 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads) {
   if (std::none_of(finest.begin(), finest.end(), refines)) {
     auto cost = make_system(scene)->cost(threads);
     if (cost.seconds() > budget)
-      throw SolverError(
-          fmt::format("the run is predicted to take {}, more than the budget of {}, and none of its "
-                      "meshes is refined by its accuracy",
-                      figures_text(cost), given));
+      throw SolverError(fmt::format(
+          "the run is predicted to take {}, more than the budget of {}, and its accuracy refines none of its meshes",
+          figures_text(cost), given));
     auto sentence =
-        fmt::format("budget {}: predicted {}; no mesh of this scene is refined, its accuracy stays as it is", given,
+        fmt::format("budget {}: predicted {}; no mesh of this scene is refined, and its accuracy is unchanged", given,
                     figures_text(cost));
     return {scene, std::move(cost), std::move(sentence)};
   }

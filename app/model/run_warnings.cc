@@ -30,7 +30,7 @@ void warn_of_mesh(std::vector<Warning>& list, const MeshResult& mesh, double acc
   if (backlash < deflection.value)
     list.push_back({"backlash_below_deflection", Severity::note,
                     fmt::format("the backlash of {:.3g} µm is less than the deflection of {:.3g} µm: back flanks may "
-                                "touch, and the contact solve has the driving flanks alone",
+                                "touch, and the contact solution contains only the driving flanks",
                                 backlash / units::um, deflection.value / units::um),
                     where});
   if (const auto edge = mesh.peak("tip_edge_contact"); edge && edge->value != 0)
@@ -54,11 +54,12 @@ void warn_of_response(std::vector<Warning>& list, const SystemRun& run, std::siz
     if (entry.key.ends_with("contact_loss") && std::isfinite(entry.figure.value))
       lost = std::max(lost, entry.figure.value);
   if (lost > 0)
-    list.push_back({"other_steady_states", Severity::warning,
-                    fmt::format("teeth separate for up to {:.2g} % of the time: other steady states may exist, which "
-                                "other starts reach",
-                                100 * lost),
-                    answer.name});
+    list.push_back(
+        {"other_steady_states", Severity::warning,
+         fmt::format(
+             "teeth separate for up to {:.2g} % of the time: other initial conditions may lead to other steady states",
+             100 * lost),
+         answer.name});
   for (const auto* mesh : run.tables_of(variant)) {
     const auto own = mesh->model.mesh + "_peak_factor";
     const double factor = figures.value(figures.find(own) ? own : "peak_factor");
@@ -67,8 +68,8 @@ void warn_of_response(std::vector<Warning>& list, const SystemRun& run, std::siz
     const double largest = factor * loads.at(mesh->nominal);
     if (largest <= loads.back()) continue;
     list.push_back({"force_beyond_table", Severity::warning,
-                    fmt::format("forces up to {:.4g} kN lie beyond the tabulated {:.4g} kN, where the law continues "
-                                "with its tangent",
+                    fmt::format("forces up to {:.4g} kN exceed the tabulated {:.4g} kN; beyond it the force is "
+                                "extrapolated with the tangent stiffness",
                                 largest / 1e3, loads.back() / 1e3),
                     (answer.name.empty() ? "" : answer.name + ", ") + mesh->model.label()});
   }
@@ -81,7 +82,7 @@ void warn_of_response(std::vector<Warning>& list, const SystemRun& run, std::siz
   if (unknown > 0)
     list.push_back(
         {"errors_not_known", Severity::warning,
-         fmt::format("what the errors of the tables do to {} results is not known; the messages of the run state why",
+         fmt::format("the effect of the table errors on {} results is not known; the messages of the run state why",
                      unknown),
          answer.name});
 }
@@ -91,11 +92,11 @@ void warn_of_samples(std::vector<Warning>& list, const StudyResults& studies) {
   for (std::size_t i = 0; i < studies.variants.size(); ++i) {
     const auto& samples = studies.monte_carlo->variants[i];
     if (samples.failed + samples.not_steady == 0) continue;
-    list.push_back({"samples", Severity::warning,
-                    fmt::format("of {} samples {} failed and {} have no periodic steady state; monte_carlo.csv states "
-                                "which",
-                                studies.monte_carlo->samples, samples.failed, samples.not_steady),
-                    studies.variants[i]});
+    list.push_back(
+        {"samples", Severity::warning,
+         fmt::format("of {} samples, {} failed and {} have no periodic steady state; monte_carlo.csv lists them",
+                     studies.monte_carlo->samples, samples.failed, samples.not_steady),
+         studies.variants[i]});
   }
 }
 
@@ -109,7 +110,7 @@ void warn_of_cost(std::vector<Warning>& list, const SystemRun& run) {
   const double ratio = predicted > 0 ? actual / predicted : 1;
   if (std::max(actual, predicted) < short_time || (ratio <= far && ratio >= 1 / far)) return;
   list.push_back({"cost_far_off", Severity::note,
-                  fmt::format("the run took {} of processor time where {} were predicted", duration_text(actual),
+                  fmt::format("the run took {} of processor time; {} were predicted", duration_text(actual),
                               duration_text(predicted))});
 }
 

@@ -21,8 +21,8 @@ void warn_of_assumptions(std::vector<Warning>& list, const Plan& plan) {
       keys.push_back(input.key);
   if (keys.empty()) return;
   list.push_back({"assumed_inputs", Severity::note,
-                  fmt::format("{} inputs are assumed, for the reasons that [assumed] gives: {}. The results depend on "
-                              "them; [sensitivity] shows how much",
+                  fmt::format("{} inputs are assumed; [assumed] states the reasons: {}. The results depend on them; "
+                              "[sensitivity] shows how much",
                               keys.size(), fmt::join(keys, ", "))});
 }
 
@@ -39,9 +39,10 @@ void warn_of_phases(std::vector<Warning>& list, const Scene& scene) {
   else if (sampling->by_default)
     list.push_back(
         {"unstated_phases", Severity::note,
-         what + fmt::format(": {} samples of them are drawn, and their spread is the answer. State the phases "
-                            "if they are known",
-                            sampling->samples)});
+         what +
+             fmt::format(
+                 ": {} samples of them are drawn, and the result is their spread. State the phases if they are known",
+                 sampling->samples)});
 }
 
 void warn_of_accuracy(std::vector<Warning>& list, const Scene& scene, const Plan& plan) {
@@ -78,8 +79,8 @@ void warn_of_clearance(std::vector<Warning>& list, const geometry::GearPair& pai
     if (gap < least * module)
       list.push_back(
           {"tip_clearance", Severity::warning,
-           fmt::format("the tip of the {} passes the root of its mate at {:.3g} mm, {:.2g} modules; less than "
-                       "{:g} module leaves no room for lubricant, deflection and tolerances",
+           fmt::format("the tip of the {} passes the root of its mate with a clearance of {:.3g} mm, {:.2g} modules; "
+                       "less than {:g} module leaves no room for lubricant, deflection and tolerances",
                        gear, gap / units::mm, gap / module, least),
            mesh});
 }
@@ -90,8 +91,8 @@ void warn_of_backlash(std::vector<Warning>& list, double half_backlash, const ge
   if (half_backlash <= half + 1 * units::um) return;
   list.push_back(
       {"backlash_beyond_geometry", Severity::warning,
-       fmt::format("the dynamics uses the prescribed half backlash of {} µm; profile shifts and centre "
-                   "distance leave {} µm. Loss of contact and back flanks depend on it",
+       fmt::format("the dynamics uses the prescribed half backlash of {} µm; profile shifts and centre distance give "
+                   "{} µm. Loss of contact and contact of back flanks depend on it",
                    to_text(half_backlash / units::um, 4), to_text(std::round(1e3 * half / units::um) / 1e3, 3)),
        mesh});
 }

@@ -155,7 +155,7 @@ void learn_pace(const std::vector<CostRun>& done) {
     std::filesystem::create_directories(pace_file().parent_path());
     write_file(pace_file(), Json(paces).dump() + "\n");
   } catch (const std::exception& error) {
-    log::debug(fmt::format("the pace of this machine is not stored: {}", error.what()));
+    log::debug(fmt::format("the speed of this machine cannot be stored: {}", error.what()));
   }
 }
 

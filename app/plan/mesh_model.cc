@@ -19,8 +19,8 @@ void set_given(MeshModel& model, StiffnessShape given) {
   constexpr const char* names[] = {"computed", "constant", "harmonic",   "rectangular",
                                    "table",    "iso_6336", "closed_form"};
   model.fidelity = "given";
-  model.reason =
-      fmt::format("the scene gives the stiffness (mesh.{}: {})", model.mesh, names[static_cast<std::size_t>(given)]);
+  model.reason = fmt::format("the scene prescribes the stiffness (mesh.{}: {})", model.mesh,
+                             names[static_cast<std::size_t>(given)]);
   model.repeats = "as given";
 }
 
@@ -41,7 +41,7 @@ void add_structure(ContentId& id, const fem::RingStructure& structure) {
 
 Decision symmetry_decision(const fem::LoadedMeshProblem& problem, const fem::LoadedMeshSettings& settings) {
   if (fem::solved_face(problem, settings).half)
-    return {"symmetry", "half of the face", "the mesh is its own mirror image about the middle of the face"};
+    return {"symmetry", "half of the face", "the mesh is symmetric about the middle of the face"};
   return {"symmetry", "whole face", settings.symmetry ? fem::asymmetry_of_face(problem) : "asked for"};
 }
 

@@ -30,7 +30,7 @@ DofPlan supported_dof(std::string name, const std::string& support, double given
   if (given == 0) return {std::move(name), kept, fmt::format("no {}: free to move", support)};
   return {std::move(name), kept,
           fmt::format("{} of {} {}{}", support, to_text(given), unit,
-                      kept ? "" : " gives way by less than a thousandth of the accuracy: dropped")};
+                      kept ? "" : " deflects by less than a thousandth of the accuracy: dropped")};
 }
 
 bool Plan::computes() const {

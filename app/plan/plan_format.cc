@@ -81,8 +81,8 @@ std::string cost_lines(const Plan& plan) {
                         duration_text(worst.seconds()), memory_text(worst.peak_MB()));
   if (cost.pace != 1)
     text += fmt::format(
-        "  Times are {:.2g} times those of the cost laws: the pace of this machine. --budget and --max-time use the "
-        "laws.\n",
+        "  Times are {:.2g} times those of the cost laws: the speed of this machine. --budget and --max-time use the "
+        "cost laws.\n",
         cost.pace);
   return plan.budget.empty() ? text : text + "  " + plan.budget + "\n";
 }
@@ -92,7 +92,7 @@ std::string study_lines(const Plan& plan) {
   for (const auto& s : plan.studies) {
     text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.what, s.responses,
                         plan.rings.empty() ? "" : " of all rings", duration_text(s.seconds));
-    text += s.tables ? fmt::format("; {} stiffness tables of their own\n", s.tables) : ", on the tables of the scene\n";
+    text += s.tables ? fmt::format("; {} own stiffness tables\n", s.tables) : ", on the tables of the scene\n";
   }
   return text;
 }
@@ -122,7 +122,7 @@ std::string assumed_lines(const std::vector<Input>& inputs) {
   std::set<std::string> seen;
   for (const auto& input : inputs)
     if (!input.assumed.empty() && seen.insert(input.key).second) text += "  " + input.key + ": " + input.assumed + "\n";
-  return text.empty() ? text : "\nAssumed inputs, and why\n" + text;
+  return text.empty() ? text : "\nAssumed inputs, with reasons\n" + text;
 }
 
 }  // namespace
@@ -159,7 +159,7 @@ std::string to_text(const Plan& plan) {
 
   if (!plan.dofs.empty()) text += "\nLumped model\n" + decision_lines(plan.motion);
   for (const auto& f : plan.dofs)
-    text += fmt::format("  {} {} {}\n", f.kept ? "kept   " : "dropped", pad(f.name, 18), f.reason);
+    text += fmt::format("  {} {} {}\n", f.kept ? "retained" : "dropped ", pad(f.name, 18), f.reason);
 
   text += study_lines(plan) + "\nRemarks\n";
   for (const auto& remark : plan.remarks) text += "  " + remark + "\n";

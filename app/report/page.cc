@@ -194,7 +194,8 @@ std::string library(const char* file, const char* package) {
   try {
     return read_file(file);
   } catch (const InputError&) {
-    log::warn(fmt::format("pictures of the report stay pictures: {} is not installed (Debian: {})", file, package));
+    log::warn(fmt::format("the pictures of the report are not interactive: {} is not installed (Debian package: {})",
+                          file, package));
     return {};
   }
 }

@@ -158,8 +158,8 @@ void ResultFolder::lock(int flags) {
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
       if (errno == EWOULDBLOCK)
         throw Error(fmt::format("{}: {} there; wait until it ends, or {}", folder_.string(), holder(), other_folder));
-      log::warn(fmt::format("{}: cannot be locked ({}); let no two runs write there at once", folder_.string(),
-                            std::strerror(errno)));
+      log::warn(fmt::format("{}: cannot be locked ({}); do not let two runs write there at the same time",
+                            folder_.string(), std::strerror(errno)));
     }
     struct stat opened {
     }, named{};
@@ -197,8 +197,8 @@ void ResultFolder::replace(const Record& record) {
 void ResultFolder::check() const {
   const auto text = file_ < 0 ? "" : read_file(list());
   const auto not_ours = [&](const fs::path& file) {
-    return FileError(fmt::format("{}: is there already, and annulus did not write it; move it away, or {}",
-                                 file.string(), other_folder));
+    return FileError(fmt::format("{}: exists already, and annulus did not write it; move it away, or {}", file.string(),
+                                 other_folder));
   };
   if (text.empty()) {  // nobody's yet
     for (const auto* name : files_of_every_run)
@@ -256,8 +256,7 @@ void ResultFolder::before_write(const fs::path& file) {
   if (name.empty() || contains(written_, name)) return;
   if (there(file) && !listed(name))
     throw FileError(
-        fmt::format("cannot write {}: a file of this name is there that annulus did not write; move it "
-                    "away, or {}",
+        fmt::format("cannot write {}: a file of this name exists that annulus did not write; move it away, or {}",
                     file.string(), other_folder));
   append(line_of("file", name));
   insert(written_, name);

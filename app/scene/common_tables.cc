@@ -13,17 +13,16 @@ Table top_level_table() {
   top.key("accuracy", &Scene::accuracy, "Wanted relative accuracy of the mesh stiffness.")
       .fallback(0.01, "well below the spread of unknown inputs such as support stiffnesses")
       .from(1e-5, 0.2);
-  top.choice(
-         "model", &Scene::fidelity,
-         {{"automatic", Fidelity::automatic},
-          {"closed_form", Fidelity::closed_form},
-          {"plane", Fidelity::plane},
-          {"solid", Fidelity::solid},
-          {"resolved", Fidelity::resolved}},
-         "Kind of model of the elastic bodies: closed_form, tooth and curved-beam formulas, seconds, its error is "
-         "not controlled; plane or solid, finite elements with condensed flanks; resolved, the contact patch itself "
-         "is meshed, plane or solid as the scene requires.")
-      .fallback("automatic", "the cheapest with a controlled error that the scene permits")
+  top.choice("model", &Scene::fidelity,
+             {{"automatic", Fidelity::automatic},
+              {"closed_form", Fidelity::closed_form},
+              {"plane", Fidelity::plane},
+              {"solid", Fidelity::solid},
+              {"resolved", Fidelity::resolved}},
+             "Model of the elastic bodies. closed_form: tooth and curved-beam formulas, computed in seconds; the error "
+             "is not controlled. plane or solid: finite elements with tooth superelements. resolved: the contact patch "
+             "itself is meshed, plane or solid as the scene requires.")
+      .fallback("automatic", "the cheapest model with a controlled error that the scene permits")
       .formerly("rung");
   top.key("reference", &Scene::reference, "File of published values to compare with, relative to the scene.")
       .absent("no comparison");
@@ -31,7 +30,7 @@ Table top_level_table() {
 }
 
 Table report_table() {
-  Declarations<Scene> report("report", "What the head of the report names.",
+  Declarations<Scene> report("report", "Names in the head of the report.",
                              [](Scene& s, std::size_t) -> Scene& { return s; });
   report.optional();
   report.key("project", &Scene::project, "Project or customer.").fallback("", "none is named");
@@ -50,9 +49,9 @@ Table stage_table() {
       .from(10, 35);
   stage
       .key("helix_angle_deg", &StageInput::helix_angle,
-           "Helix angle at the reference circle; positive: planets, ring and pinion right-handed, sun and wheel "
-           "left-handed. The module, pressure angle and profile shifts are then those of the normal section; forces "
-           "and transmission errors of a planetary stage those of the transverse one.")
+           "Helix angle at the reference circle. Positive: planets, ring and pinion are right-handed, sun and wheel "
+           "left-handed. Module, pressure angle and profile shifts are then those of the normal section. Forces and "
+           "transmission errors of a planetary stage are those of the transverse section.")
       .fallback(0.0, "spur gears")
       .from(-45, 45);
   stage.key("face_width_mm", &StageInput::face_width, "Common face width.").required().above(0, 5000);
@@ -80,14 +79,14 @@ void declare_integration(Declarations<DynamicsInput>& lumped) {
                {"bdf", dynamics::Integrator::cvode_bdf},
                {"implicit", dynamics::Integrator::arkode_implicit},
                {"runge_kutta_4", dynamics::Integrator::runge_kutta_4}},
-              "Time integration. explicit: Runge-Kutta of order 5 with adaptive steps (ARKODE); adams, bdf: CVODE; "
-              "implicit: L-stable Runge-Kutta of order 5 (ARKODE), for speeds so low that vibrations decay within a "
-              "mesh cycle; runge_kutta_4: the classical method with fixed steps, as in the papers; automatic: "
-              "explicit, bdf or implicit by stiffness ratio and damping.")
-      .fallback("automatic", "the faster one of those that are accurate");
+              "Method of time integration. explicit: Runge-Kutta of order 5 with adaptive steps (ARKODE). adams, bdf: "
+              "CVODE. implicit: L-stable Runge-Kutta of order 5 (ARKODE), for low speeds at which vibrations decay "
+              "within a mesh cycle. runge_kutta_4: the classical method with fixed steps, as in the papers. automatic: "
+              "explicit, bdf or implicit, chosen by stiffness ratio and damping.")
+      .fallback("automatic", "the fastest accurate method");
   lumped.key("steps_per_cycle", &DynamicsInput::steps_per_cycle, "Steps per mesh cycle.")
       .from(10, 1e6)
-      .needed_if(is("integrator", {"runge_kutta_4"}), "its steps are fixed; the other methods choose theirs");
+      .needed_if(is("integrator", {"runge_kutta_4"}), "its steps are fixed; the other methods choose their steps");
   lumped.key("mesh_cycles", &DynamicsInput::mesh_cycles, "Mesh cycles to integrate.")
       .from(1, 1e6)
       .absent("until the periodic steady state is reached, then one error period");
@@ -100,7 +99,8 @@ Table dynamics_table() {
   Declarations lumped("dynamics", "The lumped model; absent: meshes and stiffness only.", &Scene::dynamics);
   lumped.optional();
   lumped
-      .key("half_backlash_um", &DynamicsInput::half_backlash, "Half the backlash along the line of action, every mesh.")
+      .key("half_backlash_um", &DynamicsInput::half_backlash,
+           "Half the backlash of every mesh along the line of action.")
       .required()
       .from(0, 1e4);
   lumped.key("mesh_damping_ratio", &DynamicsInput::mesh_damping_ratio, "Damping ratio ζ of every mesh: c = 2ζ√(k m_e).")
@@ -112,14 +112,15 @@ Table dynamics_table() {
   lumped
       .choice("mesh_damping", &DynamicsInput::mesh_damping,
               {{"in_contact", MeshDamping::in_contact}, {"always", MeshDamping::always}},
-              "When mesh damping acts. `always` is the literal form of the papers; it lets separated flanks pull.")
+              "Contact state in which mesh damping acts. `always` is the literal form of the papers; separated flanks "
+              "can then pull.")
       .fallback("in_contact", "separated flanks exert no force");
   lumped
       .choice("load_dependence", &DynamicsInput::load_dependence,
               {{"table", dynamics::LoadDependence::table}, {"nominal", dynamics::LoadDependence::nominal}},
               "Force of a mesh with a stiffness table. table: force as a function of deflection through all tabulated "
               "loads; nominal: linear, with the secant stiffness at the mean mesh force.")
-      .fallback("table", "right at whatever load the mesh carries at the moment");
+      .fallback("table", "correct at every load of the mesh");
   declare_integration(lumped);
   return lumped.done();
 }

@@ -22,7 +22,7 @@ Declarations<MeshInput> declare_mesh(Declarations<MeshInput> t, const MeshKeys& 
                                                 {"table", StiffnessShape::table}};
   shapes.insert(shapes.end(), keys.more_shapes.begin(), keys.more_shapes.end());
   t.choice("stiffness", &MeshInput::stiffness, shapes,
-           "Where the mesh stiffness comes from; everything but `computed` replaces the finite-element solve.")
+           "Source of the mesh stiffness; every value except `computed` replaces the finite-element solution.")
       .required()
       .without_table("computed");
   t.key("mean_N_per_m", &MeshInput::mean, "Mean stiffness of one mesh.")
@@ -41,7 +41,7 @@ Declarations<MeshInput> declare_mesh(Declarations<MeshInput> t, const MeshKeys& 
   t.key("duty", &MeshInput::duty, "Fraction of the mesh cycle in which the rectangular wave is high.")
       .above(0, 1)
       .needed_if(is("stiffness", {"rectangular"}));
-  t.key("phase", &MeshInput::phase, "Lag of this wave in mesh cycles, on top of the phasing derived from the geometry.")
+  t.key("phase", &MeshInput::phase, "Lag of this wave in mesh cycles, in addition to the phase from the geometry.")
       .from(-1, 1)
       .only_if(is("stiffness", with_ripple))
       .absent("no lag");
@@ -49,8 +49,8 @@ Declarations<MeshInput> declare_mesh(Declarations<MeshInput> t, const MeshKeys& 
       .from(0, 1e4)
       .absent("that of [dynamics]");
   t.key("file", &MeshInput::file,
-        "Stiffness table (CSV), relative to the scene: one that annulus wrote, or columns of another program "
-        "(docs/exchange.md): mesh_phase and stiffness_N_per_m, or lte_um and load_N.")
+        "Stiffness table (CSV); the path is relative to the scene. Either a table that annulus wrote, or columns of "
+        "another program (docs/exchange.md): mesh_phase with stiffness_N_per_m, or with lte_um and load_N.")
       .needed_if(is("stiffness", {"table"}));
   return t;
 }

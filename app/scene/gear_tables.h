@@ -63,11 +63,11 @@ void declare_flanks(Declarations<Section>& t, Flanks flanks) {
                "Parabolic crowning at both ends of the flank's profile.")
       .from(0, 1000);
   modification("lead_crowning_um", &Section::lead_crowning,
-               "Parabolic crowning along the face width, removed at both ends. The mesh becomes solid.")
+               "Parabolic crowning along the face width, removed at both ends. The mesh then needs the solid model.")
       .from(0, 1000);
   modification("lead_slope_um", &Section::lead_slope,
                "Slope along the face width, end to end; positive removes material towards +z, the free end of a "
-               "thin_walled ring. The mesh becomes solid.")
+               "thin_walled ring. The mesh then needs the solid model.")
       .from(-1000, 1000);
 }
 

@@ -194,7 +194,7 @@ class RuleChecker : KeyChecks {
     if (unknown(p, entry)) return;
     for (const auto& rule : p.refused_if) {
       if (keys_.given(p.key(), entry) && rule.when.holds(keys_, p.table, entry) == true)
-        problem(p.key(), entry, fmt::format("cannot stand beside {}: {}", rule.when.text(p.table), rule.why));
+        problem(p.key(), entry, fmt::format("cannot be used together with {}: {}", rule.when.text(p.table), rule.why));
     }
     if (!keys_.given(p.key(), entry)) {
       fall_back(p, entry);

@@ -42,7 +42,7 @@ void check_bore(const Scene& scene, const char* table, const HubGearInput& input
 }
 
 std::string small_displacements_rule() {
-  return fmt::format("small displacements and strains are computed, up to {} modules", largest_deflection);
+  return fmt::format("the model is for small displacements and strains, up to {} modules", largest_deflection);
 }
 
 void check_load(const Scene& scene, const char* key, double force) {
@@ -50,8 +50,8 @@ void check_load(const Scene& scene, const char* key, double force) {
       force / (usual_mesh_stiffness * scene.material.youngs_modulus * scene.stage.face_width) / scene.stage.module;
   if (in_modules <= largest_deflection) return;
   throw InputError(
-      fmt::format("{}: each mesh carries {} N, under which teeth of this module, width and material deflect by some "
-                  "{:.2g} modules; {}: reduce the load {:.3g} times, or make the teeth stiffer",
+      fmt::format("{}: each mesh carries {} N. Teeth of this module, width and material then deflect by about {:.2g} "
+                  "modules; {}. Reduce the load {:.3g} times, or make the teeth stiffer",
                   key, to_text(force, 4), in_modules, small_displacements_rule(), in_modules / largest_deflection));
 }
 
@@ -77,8 +77,8 @@ void check_torsional_support(const char* key, double stiffness, double force, do
   constexpr double largest = 0.1;  // rad
   if (force <= largest * radius * stiffness) return;
   throw InputError(
-      fmt::format("{} = {}: turns by more than {} rad under the load, where small turns are computed; must be at least "
-                  "{} N/m",
+      fmt::format("{} = {}: turns by more than {} rad under the load, but the model is for small rotations; must be at "
+                  "least {} N/m",
                   key, to_text(stiffness, 6), largest, to_text(force / (largest * radius), 3)));
 }
 

@@ -86,12 +86,11 @@ NewValues example_values(const std::string& kind) {
 }
 
 std::string new_scene(const std::string& kind, const NewValues& values) {
-  std::string text =
-      comment("A scene for annulus: " + kind +
-              ". Every key stands with its meaning, unit, range and default; those behind '#' can be left out.");
+  std::string text = comment("A scene for annulus: " + kind +
+                             ". Every key has its meaning, unit, range and default. Keys behind '#' can be left out.");
   text += comment(
-      "annulus check FILE validates it, annulus plan FILE shows what will be modelled and how long it takes, annulus "
-      "run FILE computes it.");
+      "annulus check FILE validates it. annulus plan FILE shows the model and the predicted time. annulus run FILE "
+      "computes it.");
   for (const auto& table : schema(kind)) {
     const auto& keys = table.parameters;
     const bool used =

@@ -68,7 +68,8 @@ std::vector<std::size_t> find_rings(const Scene& scene, const std::string& path,
   if (rings.empty() && p->presence == Parameter::Presence::defaulted)
     add([](const Input& input) { return !std::holds_alternative<std::monostate>(input.value); });
   if (rings.empty())
-    throw InputError(fmt::format("{}: no ring of this scene gives it; ring.NAME.{} sets it for one", path, p->name));
+    throw InputError(
+        fmt::format("{}: no ring of this scene has this key; ring.NAME.{} sets it for one ring", path, p->name));
   return rings;
 }
 

@@ -33,7 +33,7 @@ class StudyChecker : KeyChecks {
     for (std::size_t i = 0; i < scene_.random_inputs.size(); ++i) random(scene_.random_inputs[i], i);
     optimise();
     if (scene_.monte_carlo && scene_.monte_carlo->samples == 1)
-      problem("monte_carlo.samples", "one sample has no spread; give 0 for none, or 2 and more");
+      problem("monte_carlo.samples", "one sample has no spread; give 0 for none, or 2 or more");
     if (scene_.sensitivity) {
       for (const auto& path : scene_.sensitivity->inputs) input("sensitivity.inputs", 0, path);
     }
@@ -138,7 +138,7 @@ class StudyChecker : KeyChecks {
       problem(table + "scale", i, "needs values above 0; use \"linear\"");
     const bool whole = parameter.kind == Parameter::Kind::integer;
     if (whole && (v.low != std::floor(v.low) || v.high != std::floor(v.high)))
-      problem(table + "low", i, v.input + " is a whole number, so must be its limits");
+      problem(table + "low", i, v.input + " is a whole number; its limits must be whole numbers");
   }
 };
 

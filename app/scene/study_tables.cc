@@ -6,9 +6,9 @@ namespace annulus::app {
 namespace {
 
 constexpr const char* path_meaning =
-    "the table and key of an input, as \"supports.planet_N_per_m\" or \"mesh.sun_planet.mean_N_per_m\"; \"ring.pins\" "
-    "is that of every ring that has it, \"ring.NAME.pins\" that of one; \"errors.planet_eccentricity_um[2]\" is the "
-    "value of planet 2, counted from 1.";
+    "the table and key of an input, such as \"supports.planet_N_per_m\" or \"mesh.sun_planet.mean_N_per_m\". "
+    "\"ring.pins\" means the key of every ring that has it, \"ring.NAME.pins\" the key of one ring. "
+    "\"errors.planet_eccentricity_um[2]\" means the value of planet 2, counted from 1.";
 
 const std::vector<Choice<SweepScale>> scales = {{"linear", SweepScale::linear},
                                                 {"logarithmic", SweepScale::logarithmic}};
@@ -19,17 +19,17 @@ constexpr int most_study_values = 10000;
 /// Keys of one input and its values, their names behind a prefix.
 Table row_of_values(Declarations<SweepInput> row, const std::string& prefix) {
   row.study();
-  row.key(prefix + "input", &SweepInput::input, std::string("What is varied: ") + path_meaning).required();
+  row.key(prefix + "input", &SweepInput::input, std::string("Input to vary: ") + path_meaning).required();
   row.key(prefix + "from", &SweepInput::from, "First value, in the unit of the input.")
       .from(-1e14, 1e14)
       .absent("give values instead");
   row.key(prefix + "to", &SweepInput::to, "Last value, in the unit of the input.")
       .from(-1e14, 1e14)
       .absent("give values instead");
-  row.key(prefix + "count", &SweepInput::count, "Number of values between these two, both included.")
+  row.key(prefix + "count", &SweepInput::count, "Number of values from the first to the last, both included.")
       .from(2, most_study_values)
       .absent("give values instead");
-  row.choice(prefix + "scale", &SweepInput::scale, scales, "Spacing of the values, and the axis of the plots.")
+  row.choice(prefix + "scale", &SweepInput::scale, scales, "Spacing of the values, and scale of the plots.")
       .fallback("linear", "equal steps");
   row.key(prefix + "values", &SweepInput::values, "The values themselves, in the unit of the input.")
       .from(-1e14, 1e14)
@@ -43,15 +43,14 @@ Table row_of_values(Declarations<SweepInput> row, const std::string& prefix) {
 
 Table sweep_table() {
   return row_of_values(
-      {"sweep", "One input run through a row of values, for every ring; several tables are several sweeps.",
-       &Scene::sweeps},
+      {"sweep", "One input takes a row of values, for every ring. Several tables are several sweeps.", &Scene::sweeps},
       "");
 }
 
 Table grid_table() {
   const auto axis = [](SweepInput GridInput::*member) {
     return Declarations<SweepInput>(
-        "grid", "Two inputs run through all combinations of their values; several tables are several grids.",
+        "grid", "Two inputs take all combinations of their values. Several tables are several grids.",
         [member](Scene& s, std::size_t i) -> SweepInput& { return s.grids.at(i).*member; },
         [](Scene& s, std::size_t n) { s.grids.resize(n); });
   };
@@ -63,34 +62,33 @@ Table grid_table() {
 Table monte_carlo_table() {
   Declarations monte_carlo(
       "monte_carlo",
-      "Random samples of what is not known. Every ring gets the same draws. A draw depends on seed, sample number and "
-      "input alone: not on the number of threads or samples. Without this table, 20 samples are drawn where errors "
-      "have "
-      "phases that the scene does not state or lists as assumed.",
+      "Random samples of unknown inputs. Every ring gets the same draws. A draw depends only on seed, sample number "
+      "and input, not on the number of threads or samples. Without this table, 20 samples are drawn if the scene does "
+      "not state the phases of its errors, or lists them as assumed.",
       &Scene::monte_carlo);
   monte_carlo.study();
   monte_carlo.key("samples", &MonteCarloInput::samples, "Number of samples; 0: none.").required().from(0, 1e6);
   monte_carlo.key("seed", &MonteCarloInput::seed, "Other seeds give other draws.")
-      .fallback(1, "any number will do")
+      .fallback(1, "any number")
       .from(0, 2147483647);
   monte_carlo
       .choice("phases", &MonteCarloInput::phases,
               {{"unknown", ErrorPhases::unknown}, {"prescribed", ErrorPhases::given, "given"}},
               "unknown: every error phase of every body is uniform over the full circle; prescribed: the phases of "
               "[errors].")
-      .fallback("unknown", "the phases of errors are hardly ever known");
+      .fallback("unknown", "the phases of errors are seldom known");
   return monte_carlo.done();
 }
 
 Table random_input_table() {
   Declarations random("monte_carlo.input",
-                      "A tolerance: an input that is not known exactly. It must leave the stiffness "
-                      "tables as they are. A draw outside the range of the key is refused, never moved.",
+                      "A tolerance: an input that is not known exactly. It must not change the stiffness tables. A "
+                      "draw outside the range of the key is refused, not moved into the range.",
                       &Scene::random_inputs);
-  random.study().only_if(given("[monte_carlo]"), "it holds the number of samples");
+  random.study().only_if(given("[monte_carlo]"), "it contains the number of samples");
   random
       .key("input", &RandomInput::input,
-           std::string("What is uncertain: ") + path_meaning + " \"...[*]\" draws for every planet by itself.")
+           std::string("Uncertain input: ") + path_meaning + " \"...[*]\" draws a separate value for every planet.")
       .required();
   random
       .choice("distribution", &RandomInput::distribution,
@@ -116,30 +114,30 @@ Table random_input_table() {
 }
 
 Table sensitivity_table() {
-  Declarations sensitivity(
-      "sensitivity",
-      "Each input divided and multiplied by a factor, one at a time: does the order of the rings change?",
-      &Scene::sensitivity);
+  Declarations sensitivity("sensitivity",
+                           "Each input is divided and multiplied by a factor, one at a time. The report states if the "
+                           "order of the rings changes.",
+                           &Scene::sensitivity);
   sensitivity.study();
-  sensitivity.key("inputs", &SensitivityInput::inputs, std::string("Which inputs; each is ") + path_meaning)
-      .fallback(
-          std::vector<std::string>{},
-          "the stiffnesses of [supports], the damping ratios and the backlash; of a 2K-V stage all stiffnesses and "
-          "inertias besides");
-  sensitivity.key("factor", &SensitivityInput::factor, "The factor.").fallback(2.0, "a usual doubt").above(1, 1e6);
+  sensitivity.key("inputs", &SensitivityInput::inputs, std::string("Inputs to change; each is ") + path_meaning)
+      .fallback(std::vector<std::string>{},
+                "the stiffnesses of [supports], the damping ratios and the backlash; for a 2K-V stage also all "
+                "stiffnesses and inertias");
+  sensitivity.key("factor", &SensitivityInput::factor, "The factor.")
+      .fallback(2.0, "a usual uncertainty")
+      .above(1, 1e6);
   return sensitivity.done();
 }
 
 Table optimise_table() {
-  Declarations optimise(
-      "optimise",
-      "Inputs are searched for the best value of a result. A search interrupted goes on where it stopped; the same "
-      "seed gives the same search.",
-      &Scene::optimise);
+  Declarations optimise("optimise",
+                        "Search for the inputs that give the best value of a result. An interrupted search continues "
+                        "where it stopped. The same seed gives the same search.",
+                        &Scene::optimise);
   optimise.study();
   optimise
       .key("objective", &OptimiseInput::objective,
-           "Results whose weighted sum is the objective: keys of results (annulus explain), as "
+           "Results whose weighted sum is the objective: keys of results (annulus explain), such as "
            "\"sun_planet_load_sharing_instantaneous\".")
       .not_empty("result")
       .required();
@@ -148,7 +146,7 @@ Table optimise_table() {
       .from(-1e14, 1e14);
   optimise
       .choice("goal", &OptimiseInput::goal, {{"smallest", Goal::smallest}, {"largest", Goal::largest}},
-              "Which value is best.")
+              "Best value of the objective.")
       .fallback("smallest", "less is better");
   optimise
       .key("optimisers", &OptimiseInput::optimisers,
@@ -162,13 +160,13 @@ Table optimise_table() {
   optimise.key("population", &OptimiseInput::population, "Points of a generation; an even number.")
       .fallback(20, "ten per input for two inputs")
       .from(6, 1e5);
-  optimise.key("repeats", &OptimiseInput::repeats, "Searches by each optimiser, with seeds of their own.")
+  optimise.key("repeats", &OptimiseInput::repeats, "Number of searches by each optimiser, each with its own seed.")
       .fallback(1, "one")
       .from(1, 1000);
   optimise.key("seed", &OptimiseInput::seed, "Other seeds give other searches.")
-      .fallback(1, "any number will do")
+      .fallback(1, "any number")
       .from(0, 2147483647);
-  optimise.key("elite", &OptimiseInput::elite, "genetic: share of the population that become parents.")
+  optimise.key("elite", &OptimiseInput::elite, "genetic: share of the population that becomes parents.")
       .fallback(0.2, "as usual in the literature")
       .above(0, 1);
   optimise.key("crossover", &OptimiseInput::crossover, "genetic: probability that a pair of parents is crossed.")
@@ -179,17 +177,17 @@ Table optimise_table() {
       .from(0, 1);
   optimise
       .key("initial_conditions", &OptimiseInput::starts,
-           "Initial conditions from which the motion is followed at the inputs of the scene and at the best ones: "
-           "where teeth lose contact, more than one steady motion is possible.")
-      .fallback(6, "finds a second motion that is not rare")
+           "Number of initial conditions from which the motion is computed, with the inputs of the scene and with the "
+           "best inputs. If teeth lose contact, more than one steady motion is possible.")
+      .fallback(6, "enough to find a second motion that is not rare")
       .from(0, 1000);
   return optimise.done();
 }
 
 Table variable_table() {
   Declarations variable("optimise.variable", "An input that is searched.", &Scene::variables);
-  variable.study().only_if(given("[optimise]"), "it holds the objective");
-  variable.key("input", &VariableInput::input, std::string("What is searched: ") + path_meaning).required();
+  variable.study().only_if(given("[optimise]"), "it contains the objective");
+  variable.key("input", &VariableInput::input, std::string("Input to search: ") + path_meaning).required();
   variable.key("low", &VariableInput::low, "Smallest value, in the unit of the input.").required().from(-1e14, 1e14);
   variable.key("high", &VariableInput::high, "Largest value, in the unit of the input.").required().from(-1e14, 1e14);
   variable.choice("scale", &VariableInput::scale, scales, "Scale on which the range is searched.")

@@ -119,14 +119,14 @@ Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::ve
     }
   }
   if (chart.bars.empty()) return {};
-  const std::string whiskers =
-      sampled ? "Bars: median over the samples; whiskers: 5 % to 95 %; diamonds: nominal inputs, one of the cases."
-              : "Whiskers: estimated numerical error.";
-  return Pictures{{chart},
-                  {},
-                  "Excess of the most loaded planet over its share, of the largest force over the mean of its mesh "
-                  "cycle, and over the nominal force. " +
-                      whiskers};
+  const std::string whiskers = sampled ? "Bars: median of the samples. Whiskers: 5 % to 95 %. Diamonds: nominal inputs."
+                                       : "Whiskers: estimated numerical error.";
+  return Pictures{
+      {chart},
+      {},
+      "Load sharing: excess of the most loaded planet over its share. Dynamic factor: excess of the largest force over "
+      "the mean force of its mesh cycle. Peak factor: excess of the largest force over the nominal force. " +
+          whiskers};
 }
 
 }  // namespace annulus::app

@@ -84,9 +84,9 @@ Blocks face_width(const NamedMeshes& meshes) {
   return heading("Face width") +
          Pictures{{plot},
                   {},
-                  phrase("Force per millimetre of face width, all tooth pairs together, at the nominal load. Line: "
+                  phrase("Force per millimetre of face width at the nominal load, summed over all tooth pairs. Line: "
                          "position with the largest face load factor K{} (largest over mean line load, ISO 6336-1). "
-                         "Band: all positions. Meshes in which nothing changes along the face width are left out.",
+                         "Band: range over all positions. Meshes without variation along the face width are left out.",
                          subscript("Hβ"))};
 }
 
@@ -225,15 +225,15 @@ Blocks pressures(const NamedMeshes& meshes) {
   Blocks blocks = heading("Pressure on the flanks");
   if (!maps.empty())
     blocks += paragraph(
-                  "Contact pressure of every tooth pair at the nominal load, over face width and roll length of the "
-                  "planet (small at its root, large at its tip), at the position with the largest face load factor. "
+                  "Contact pressure of every tooth pair at the nominal load, at the position with the largest face "
+                  "load factor. Axes: roll length of the planet (small at its root, large at its tip) and face width. "
                   "White: no contact.") +
               maps;
   if (!profiles.empty())
     blocks += Pictures{profiles,
                        {},
-                       "Contact pressure of every tooth pair at the nominal load where nothing changes along the face "
-                       "width, at the position with the largest pressure away from tip edges."};
+                       "Contact pressure of every tooth pair at the nominal load, for meshes without variation along "
+                       "the face width. The position is that with the largest pressure away from tip edges."};
   return blocks;
 }
 
@@ -294,10 +294,10 @@ Blocks stresses(const NamedMeshes& meshes) {
     plot.series = series;
     blocks += Pictures{{plot},
                        {},
-                       std::string("Solid: stress along the surface, tension positive; dashed: von Mises. ") +
+                       std::string("Solid: stress along the surface, tension positive. Dashed: von Mises stress. ") +
                            (rim ? "Around the whole circumference. "
-                                : "From the form circle of the trailing to that of the leading flank. ") +
-                           "Each at the position where its largest von Mises stress occurs (" + positions + ")."};
+                                : "Range: from the form circle of the trailing flank to that of the leading flank. ") +
+                           "Each curve is at the position with its largest von Mises stress (" + positions + ")."};
   }
   return blocks.empty() ? blocks : heading("Stress") + blocks;
 }

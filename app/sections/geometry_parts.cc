@@ -27,8 +27,8 @@ std::string helical_note(double helix_angle) {
 
 std::string teeth_words(const std::string& planet, const std::string& wheels) {
   return fmt::format(
-      "teeth in mesh at phase 0, in which driving flanks meet in the pitch point C if the path of contact reaches it; "
-      "it ends at A with the tip of the {} and at E with that of the {}.",
+      "teeth in mesh at phase 0. At this phase the driving flanks touch at the pitch point C, if it lies on the path "
+      "of contact. The path of contact ends at A (tip of the {}) and at E (tip of the {}).",
       wheels, planet);
 }
 

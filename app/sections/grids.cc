@@ -145,7 +145,7 @@ Blocks one_grid(const Scene& scene, const StudyResults& studies, std::size_t n) 
   for (const auto& variant : grid.variants)
     for (const auto& point : variant) outcome.add(point, "");
   Blocks blocks = heading(grid.grid.x.input + " and " + grid.grid.y.input) +
-                  paragraph(phrase("{} {} {} × {} points; all else as in the scene. Table: {}.{}",
+                  paragraph(phrase("{} {} {} × {} points; all other inputs as in the scene. Table: {}.{}",
                                    find_input(scene, grid.grid.x.input).parameter->meaning,
                                    find_input(scene, grid.grid.y.input).parameter->meaning, grid.x.size(),
                                    grid.y.size(), code(fmt::format("dynamics/grid_{}.csv", n + 1)), outcome.text()));

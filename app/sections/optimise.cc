@@ -42,12 +42,13 @@ Text values_text(const OptimiseResults& o, const Design& design) {
 /// What the search gained.
 Text gain_text(const OptimiseResults& o) {
   const double gain = sign_of(o) * (o.given.objective - o.best.objective);
-  if (o.range.flat) return bold("Nothing to gain.") + " " + o.range.verdict;
+  if (o.range.flat) return bold("No improvement possible.") + " " + o.range.verdict;
   const auto given = to_text(o.given.objective, 6), best = to_text(o.best.objective, 6);
   if (!std::isfinite(o.given.objective))
-    return bold("Best objective " + best + ".") + " The scene as given has no response.";
+    return bold("Best objective " + best + ".") + " The values of the scene give no response.";
   if (gain <= o.range.least_meaning)
-    return bold("The scene as given is as good as the best found:") + " " + given + " against " + best + ".";
+    return bold("The values of the scene are as good as the best values found:") + " " + given + " against " + best +
+           ".";
   return bold("The objective goes from " + given + " to " + best) +
          fmt::format(" ({:.1f} % of its value).",
                      100 * std::abs(o.given.objective - o.best.objective) / std::abs(o.given.objective));
@@ -57,7 +58,7 @@ Box verdict(const StudyResults& studies, const OptimiseResults& o) {
   Blocks blocks = paragraph(gain_text(o));
   for (const auto& loss : studies.figures) {
     if (!loss.key.ends_with("contact_loss")) continue;
-    blocks += paragraph(fmt::format("{}: {} % with the values of the scene, {} % with the best.", loss.title,
+    blocks += paragraph(fmt::format("{}: {} % with the values of the scene, {} % with the best values.", loss.title,
                                     to_text(100 * o.given.point.value(loss.key), 3),
                                     to_text(100 * o.best.point.value(loss.key), 3)));
   }
@@ -131,7 +132,7 @@ PageTable runs_table(const OptimiseResults& o) {
 }
 
 PageTable figures_table(const StudyResults& studies, const OptimiseResults& o) {
-  PageTable table{.head = {"", "as given", "best"}, .style = PageTable::Style::numbers};
+  PageTable table{.head = {"", "as in the scene", "best"}, .style = PageTable::Style::numbers};
   for (const auto& f : studies.figures) {
     if (!std::isfinite(o.best.point.value(f.key)) || f.key == "steady") continue;
     const double scale = f.axis_label().empty() ? 1 : f.scale;
@@ -148,15 +149,15 @@ Section optimise_section(const StudyResults& studies) {
   if (!studies.optimise) return section;
   const auto& o = *studies.optimise;
   auto& blocks = section.blocks;
-  blocks = paragraph(fmt::format("Objective, to be made {}: {}{}.",
+  blocks = paragraph(fmt::format("Objective, to be made as {} as possible: {}{}.",
                                  o.settings.goal == Goal::smallest ? "small" : "large", objective_text(studies, o),
                                  studies.variants[o.variant].empty() ? "" : ", " + studies.variants[o.variant])) +
            verdict(studies, o) +
-           paragraph("Given: " + values_text(o, o.given) + ". Best: " + values_text(o, o.best) + ".");
+           paragraph("In the scene: " + values_text(o, o.given) + ". Best: " + values_text(o, o.best) + ".");
   if (!o.best.point.failure.empty())
     blocks += paragraph("The best design failed when repeated: " + o.best.point.failure);
   List starts;
-  add_starts(starts, studies, o, o.given, "As given");
+  add_starts(starts, studies, o, o.given, "As in the scene");
   add_starts(starts, studies, o, o.best, "Best");
   if (!starts.items.empty()) blocks += starts;
   std::vector<std::string> names;
@@ -164,12 +165,12 @@ Section optimise_section(const StudyResults& studies) {
   std::vector<Picture> pictures = {history_picture(o)};
   for (std::size_t i = 0; i < std::min<std::size_t>(o.variables.size(), 5); ++i)
     pictures.emplace_back(cloud_picture(o, i));
-  blocks += Pictures{
-      pictures, legend_of(names),
-      phrase("Tables: {}; the best design as a scene: {} there.", code("dynamics/optimise"), code("best.toml"))};
+  blocks += Pictures{pictures, legend_of(names),
+                     phrase("Tables: {}. The best design as a scene: {} in the same folder.", code("dynamics/optimise"),
+                            code("best.toml"))};
   blocks += paragraph(
-                "“To the best”: evaluations until the best objective of all searches was met within 1 % of the gain, "
-                "or within the error of the objective where that is larger.") +
+                "“To the best”: number of evaluations until a search reached the best objective of all searches. The "
+                "tolerance is 1 % of the gain or the error of the objective, whichever is larger.") +
             runs_table(o) + heading("Results of both designs") + figures_table(studies, o);
   return section;
 }

@@ -118,17 +118,18 @@ Blocks error_parts(const std::vector<const FigureSpec*>& specs, const std::vecto
     }
   }
   if (std::all_of(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.size() == 1; })) return {};
-  return heading("What the error bars contain", "error-bars") +
-         details("Parts of the errors, in % of the value",
-                 table + paragraph("Discretisation: difference of two levels of cells. Local contact: pressure on the "
-                                   "flanks, against twice as many pieces. Condensation: asymmetry of the compliance "
-                                   "between tooth pairs. Model choice: plane strain for a face of finite width, "
-                                   "formulas for teeth; solid elements (model = \"solid\") need no plane strain. "
-                                   "Results of the lumped model: the larger change when all stiffnesses of a mesh, or "
-                                   "their ripple, are raised by their error estimate; all meshes together. Table "
-                                   "interpolation: the change with every second position of the tables. Time "
-                                   "integration: sampling, steady state and integrator. The error is the sum of its "
-                                   "parts, and not known when a part is not. Prescribed stiffness is exact."));
+  return heading("Parts of the error bars", "error-bars") +
+         details(
+             "Parts of the errors, in % of the value",
+             table + paragraph("Discretisation: difference between two levels of mesh refinement. Local contact: "
+                               "change of the flank pressure with twice as many pressure elements. Condensation: "
+                               "asymmetry of the compliance between tooth pairs. Model choice: plane strain for a face "
+                               "of finite width, or formulas for teeth. Solid elements (model = \"solid\") need no "
+                               "plane strain. Results of the lumped model: all stiffnesses of a mesh, or their ripple, "
+                               "are raised by their error estimate. The larger of the two changes counts, summed over "
+                               "all meshes. Table interpolation: change with every second position of the tables. Time "
+                               "integration: sampling, steady state and integrator. The error is the sum of its parts. "
+                               "It is not known when one of its parts is not known. Prescribed stiffness is exact."));
 }
 
 }  // namespace
@@ -230,7 +231,7 @@ Section definitions_section(const SystemRun& run) {
     blocks += Heading{d.title + with_symbol(d.symbol), definition_anchor(d.key)} + paragraph(code(d.formula)) +
               paragraph(d.text);
   }
-  return {"definitions", "Definitions", details("What the words of the results mean", blocks)};
+  return {"definitions", "Definitions", details("Definitions of the results", blocks)};
 }
 
 std::string key_results_text(const SystemRun& run) {

@@ -33,18 +33,18 @@ std::string solution_text(const dynamics::SteadyOutcome& found) {
 }
 
 Section model_section(const Plan& plan) {
-  PageTable meshes{.head = {"mesh", "model", "why", "positions", "why so many"}};
+  PageTable meshes{.head = {"mesh", "model", "reason", "positions", "reason for the positions"}};
   for (const auto& m : plan.meshes)
     meshes.rows.push_back({m.label(), m.fidelity, m.reason,
                            m.computed() ? fmt::format("{} × {}", m.problem->phases, m.positions) : "–", m.repeats});
   Blocks blocks = meshes;
   if (!plan.dofs.empty()) {
-    PageTable dofs{.head = {"degree of freedom of the lumped model", "", "why"}};
-    for (const auto& f : plan.dofs) dofs.rows.push_back({f.name, f.kept ? "kept" : "dropped", f.reason});
+    PageTable dofs{.head = {"degree of freedom of the lumped model", "", "reason"}};
+    for (const auto& f : plan.dofs) dofs.rows.push_back({f.name, f.kept ? "retained" : "dropped", f.reason});
     blocks += dofs;
   }
   blocks += List{{plan.remarks.begin(), plan.remarks.end()}};
-  return {"model", "What was modelled", blocks, "What was modelled, and why"};
+  return {"model", "Model", blocks, "Model, with reasons"};
 }
 
 Section inputs_section(const SystemRun& run) {
@@ -59,7 +59,7 @@ Section inputs_section(const SystemRun& run) {
     assumed.rows.push_back({code(input.key), value, input.assumed});
   }
   if (!assumed.rows.empty())
-    blocks += paragraph(phrase("{} {} inputs are not published and were chosen; the results depend on them.",
+    blocks += paragraph(phrase("{} {} inputs are not published; their values were chosen. The results depend on them.",
                                assumed_tag, assumed.rows.size())) +
               assumed;
   PageTable all{.head = {"key", "value", "origin", "meaning"}};
@@ -81,9 +81,8 @@ Section inputs_section(const SystemRun& run) {
   for (const auto& [ring, quantities] : plan.rings) add_derived(quantities, ring);
   Blocks record = Lines{run.scene.text};
   if (!run.command.empty()) record = paragraph("Made by " + code(run.command) + ".") + record;
-  return {
-      "inputs", "Inputs",
-      blocks + details("All inputs with their origin, and what follows from them", all) + details("The scene", record)};
+  return {"inputs", "Inputs",
+          blocks + details("All inputs with their origin, and derived quantities", all) + details("The scene", record)};
 }
 
 Blocks cost_blocks(const SystemRun& run) {
@@ -102,8 +101,8 @@ Blocks cost_blocks(const SystemRun& run) {
   PageTable times{.head = {"stage", "wall time, s"}, .style = PageTable::Style::numbers};
   for (const auto& [stage, seconds] : run.timings) times.rows.push_back({stage, fmt::format("{:.2f}", seconds)});
   return blocks + times +
-         Paragraph{fmt::format("Peak memory {:.0f} MB. annulus {}. Results that were unchanged since an earlier run "
-                               "were read back and cost no time here.",
+         Paragraph{fmt::format("Peak memory {:.0f} MB. annulus {}. Unchanged results of an earlier run were read from "
+                               "the cache and cost no time here.",
                                run.peak_memory_MB, version()),
                    Paragraph::Tone::muted};
 }
@@ -129,11 +128,10 @@ Section pictures_section(const NamedMeshes& meshes) {
   Pictures pictures{.layout = Pictures::Layout::meshes};
   for (const auto& [title, mesh] : meshes) {
     if (mesh->picture.empty()) continue;
-    auto& picture =
-        pictures.list.emplace_back(Drawing{mesh->picture}, title,
-                                   mesh->model.fidelity.ends_with("solid")
-                                       ? "Fixed faces orange, driven flanks blue."
-                                       : "Planet blue; the fixed surface is orange; the circle marks the pitch point.");
+    auto& picture = pictures.list.emplace_back(Drawing{mesh->picture}, title,
+                                               mesh->model.fidelity.ends_with("solid")
+                                                   ? "Orange: fixed faces. Blue: driven flanks."
+                                                   : "Blue: planet. Orange: fixed surface. Circle: pitch point.");
     picture.ring = mesh->model.ring;
   }
   return {"meshes", "Meshes", pictures.list.empty() ? Blocks() : Blocks(pictures)};
@@ -149,13 +147,12 @@ Section fields_section(const NamedMeshes& meshes) {
   }
   Section section{"fields", "Deformation and stress"};
   if (!views.empty())
-    section.blocks =
-        paragraph(
-            "Both bodies near the contact, in the position where the root of the second is stressed most, this mesh "
-            "alone at the nominal load. Displacements are exaggerated; those of a gear on a hub are relative to it. "
-            "Grey: the outline without load. The " +
-            code("_field.vtu") + " files hold more teeth, for ParaView.") +
-        views;
+    section.blocks = paragraph(
+                         "Both bodies near the contact, with this mesh alone at the nominal load. The position is that "
+                         "with the largest root stress of the second body. Displacements are exaggerated. "
+                         "Displacements of a gear on a hub are relative to the hub. Grey: outline without load. The " +
+                         code("_field.vtu") + " files contain more teeth, for ParaView.") +
+                     views;
   return section;
 }
 
@@ -183,8 +180,8 @@ Blocks mesh_checks(const NamedMeshes& meshes) {
   }
   if (table.rows.empty()) return {};
   return paragraph(
-             "Invariants of every contact solve, the worst over all positions and loads; relative unless a unit is "
-             "given. Worst cell: scaled Jacobian, 1 for a rectangle, 0 for a collapsed cell.") +
+             "Checks of every contact solution: worst value over all positions and loads, relative unless a unit is "
+             "given. Worst cell: smallest scaled Jacobian (1 for a rectangle, 0 for a collapsed cell).") +
          table;
 }
 

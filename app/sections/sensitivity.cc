@@ -62,11 +62,12 @@ Section sensitivity_section(const StudyResults& studies) {
     table.rows.push_back(std::move(cells));
   }
   section.blocks =
-      paragraph(phrase("Each input divided by {0}, as it is, and multiplied by {0}, one at a time. {1}.{2}",
-                       to_text(s.factor), joined(what, "; "),
-                       compare ? fmt::format(" The order of the rings by the first result stays for {} of {} inputs.",
-                                             same_order, s.rows.size())
-                               : "")) +
+      paragraph(phrase(
+          "One input at a time is divided by {0}, left unchanged, and multiplied by {0}. {1}.{2}", to_text(s.factor),
+          joined(what, "; "),
+          compare ? fmt::format(" The order of the rings by the first result stays the same for {} of {} inputs.",
+                                same_order, s.rows.size())
+                  : "")) +
       table;
   return section;
 }

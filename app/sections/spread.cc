@@ -101,7 +101,7 @@ Text inputs_text(const MonteCarloResult& samples) {
     else
       others.push_back(code(input));
   }
-  Text text = phases ? fmt::format("{} error phases, each anywhere on the circle", phases) : "";
+  Text text = phases ? fmt::format("{} error phases, each uniform over the circle", phases) : "";
   if (!others.empty()) text += (text.empty() ? "" : ", and ") + joined(others, ", ");
   return text;
 }
@@ -109,12 +109,12 @@ Text inputs_text(const MonteCarloResult& samples) {
 }  // namespace
 
 Section spread_section(const StudyResults& studies) {
-  Section section{"spread", "Spread", {}, "Spread over what is not known"};
+  Section section{"spread", "Spread", {}, "Spread over unknown inputs"};
   if (!studies.monte_carlo) return section;
   const auto& samples = *studies.monte_carlo;
   section.blocks =
       paragraph(phrase("{} samples (seed {}) of {}.{}{}", samples.samples, samples.seed, inputs_text(samples),
-                       studies.variants.size() > 1 ? " Every ring sees the same samples." : "", counted(studies)));
+                       studies.variants.size() > 1 ? " All rings have the same samples." : "", counted(studies)));
   List sentences;
   const auto* ordering = studies.ordering();
   for (const auto& order : samples.orders) {
@@ -122,19 +122,18 @@ Section spread_section(const StudyResults& studies) {
     if (const auto sentence = order_sentence(studies, order)) sentences.items.push_back(*sentence);
   }
   if (!sentences.items.empty()) section.blocks += paragraph(ordering->title + ", sample by sample:") + sentences;
-  section.blocks += Pictures{
-      result_pictures(studies,
-                      [&](const FigureSpec& figure) {
-                        return figure.spread ? std::optional(spread_picture(studies, figure)) : std::nullopt;
-                      }),
-      {},
-      "Dots: samples. Box: quartiles and median; whiskers: 5 and 95 %. Diamond: the scene as given with its numerical "
-      "error."};
   section.blocks +=
-      paragraph(fmt::format("In brackets: {:.0f} % confidence intervals, of the mean by Student's t, of quantiles "
-                            "between order statistics.",
-                            100 * dynamics::usual_confidence)) +
-      statistics_table(studies);
+      Pictures{result_pictures(studies,
+                               [&](const FigureSpec& figure) {
+                                 return figure.spread ? std::optional(spread_picture(studies, figure)) : std::nullopt;
+                               }),
+               {},
+               "Dots: samples. Box: quartiles and median. Whiskers: 5 % and 95 %. Diamond: nominal inputs with the "
+               "numerical error."};
+  section.blocks += paragraph(fmt::format("In brackets: {:.0f} % confidence intervals. That of the mean follows from "
+                                          "Student's t distribution, those of quantiles follow from order statistics.",
+                                          100 * dynamics::usual_confidence)) +
+                    statistics_table(studies);
   return section;
 }
 

@@ -101,7 +101,7 @@ Pictures per_mesh(const NamedMeshes& meshes, const char* y_label, const TableCol
 
 /// Meshes of one kind in one plot, those that repeat earlier continued over the longest period.
 Blocks overlays(const NamedMeshes& meshes) {
-  Pictures pictures{.caption = "Meshes that repeat earlier are continued over the period of the others."};
+  Pictures pictures{.caption = "Meshes with a shorter period are continued over the longest period."};
   for (const auto& group : groups_of(meshes)) {
     if (group.size() == 1) continue;
     int longest = 1;
@@ -141,10 +141,10 @@ Blocks over_load(const NamedMeshes& meshes) {
     }
   }
   if (plot.series.empty()) return {};
-  return Pictures{
-      {plot},
-      {},
-      "Secant: force over deflection. Tangent: slope of the force over the deflection, what small vibrations feel."};
+  return Pictures{{plot},
+                  {},
+                  "Secant: force over deflection. Tangent: slope of the force over the deflection; it is the stiffness "
+                  "for small vibrations."};
 }
 
 Plot shares_plot(const std::string& title, const MeshResult& mesh, std::size_t colour) {
@@ -175,8 +175,9 @@ Blocks load_shares(const NamedMeshes& meshes) {
   return heading("Load shares of the tooth pairs") +
          Pictures{plots,
                   {},
-                  "Share of one tooth pair from the planet's root to its tip. Where it falls to zero outside the "
-                  "theoretical path of contact, deflection brings teeth together early and separates them late."};
+                  "Load share of one tooth pair from the root of the planet to its tip. Deflection brings teeth into "
+                  "contact early and separates them late. The share then falls to zero outside the theoretical path of "
+                  "contact."};
 }
 
 }  // namespace
@@ -191,7 +192,7 @@ double mean_at_load(const StiffnessTable& table, std::size_t load, double Stiffn
 Blocks stiffness_blocks(const NamedMeshes& meshes) {
   Blocks blocks;
   const auto moved = per_mesh(meshes, "transmission error – mean, µm", transmission_error, About::mean,
-                              "The same about its mean: what excites vibration.");
+                              "The same about its mean. This variation excites vibration.");
   if (!moved.list.empty())
     blocks += heading("Loaded transmission error") +
               per_mesh(meshes, "transmission error, µm", transmission_error, About::zero,
@@ -199,7 +200,7 @@ Blocks stiffness_blocks(const NamedMeshes& meshes) {
               moved;
   return blocks + heading("Mesh stiffness") + overlays(meshes) +
          per_mesh(meshes, "stiffness, N/µm", secant, About::zero,
-                  "Secant stiffness at the nominal load, with the estimated error. Meshes of one kind have one "
+                  "Secant stiffness at the nominal load, with the estimated error. Meshes of one kind have the same "
                   "scale.") +
          over_load(meshes) + load_shares(meshes);
 }

@@ -24,8 +24,8 @@ std::string StudyOutcome::text() const {
   std::string text;
   if (failed) text += fmt::format(" {} of {} responses failed and are left out{}.", failed, points, first);
   if (not_steady)
-    text += fmt::format(" {} of {} responses are not periodic; their results hold for the window only.", not_steady,
-                        points);
+    text += fmt::format(" {} of {} responses are not periodic; their results hold for the evaluated window only.",
+                        not_steady, points);
   return text;
 }
 

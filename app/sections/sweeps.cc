@@ -114,24 +114,26 @@ Blocks one_sweep(const Scene& scene, const StudyResults& studies, std::size_t n)
                   fmt::format("{} at {}", studies.variants[variant], to_text(sweep.values[i], 6)));
   Blocks blocks =
       heading(sweep.sweep.input) +
-      paragraph(phrase(
-          "{} {} values; all else as in the scene. Table: {}.{}{}",
-          find_input(scene, sweep.sweep.input).parameter->meaning, sweep.values.size(),
-          code(fmt::format("dynamics/sweep_{}.csv", n + 1)), outcome.text(),
-          sweep.tables ? fmt::format(" {} of the values have stiffness tables of their own.", sweep.tables) : ""));
+      paragraph(
+          phrase("{} {} values; all other inputs as in the scene. Table: {}.{}{}",
+                 find_input(scene, sweep.sweep.input).parameter->meaning, sweep.values.size(),
+                 code(fmt::format("dynamics/sweep_{}.csv", n + 1)), outcome.text(),
+                 sweep.tables ? fmt::format(" {} of the values have their own stiffness tables.", sweep.tables) : ""));
   const SweepPictures draw(studies, sweep);
   const bool dashed = std::any_of(studies.figures.begin(), studies.figures.end(),
                                   [](const auto& figure) { return figure.plotted && !figure.beside.empty(); });
   blocks += Pictures{result_pictures(studies, [&](const FigureSpec& figure) { return draw.result(figure); }),
                      legend_of(studies.variants), dashed ? "Dashed: quasi-static." : ""};
   if (const auto frequencies = draw.frequencies(); !frequencies.empty())
-    blocks += Pictures{frequencies, {}, "The lowest natural frequencies, tangent stiffness, without rotation."};
+    blocks +=
+        Pictures{frequencies, {}, "The lowest natural frequencies, with the tangent stiffness and without rotation."};
   if (const auto points = draw.bifurcation(); !points.empty())
-    blocks += Pictures{points,
-                       {},
-                       "Force in the first mesh, once per mesh cycle (Poincaré points). Without errors one point is a "
-                       "motion that repeats with the mesh, several points one that repeats after as many cycles, a "
-                       "cloud a chaotic one. Errors spread the points over one error period."};
+    blocks +=
+        Pictures{points,
+                 {},
+                 "Force in the first mesh, once per mesh cycle (Poincaré points). Without errors, one point means a "
+                 "motion that repeats in every mesh cycle. Several points mean a motion that repeats after as many "
+                 "cycles. A cloud means a chaotic motion. Errors spread the points over one error period."};
   return blocks;
 }
 

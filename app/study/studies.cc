@@ -27,7 +27,7 @@ void check_random_input(const Scene& scene, const RandomVariable& variable, cons
   const auto target = find_input(scene, variable.input);
   const auto place = place_of(scene, variable);
   const auto refuse = [&](const std::string& why) { throw InputError(fmt::format("{}: {}: {}", place, where, why)); };
-  if (target.parameter->kind == Parameter::Kind::integer) refuse("is a whole number; a [[sweep]] suits it");
+  if (target.parameter->kind == Parameter::Kind::integer) refuse("is a whole number; vary it with a [[sweep]]");
   try {
     variable.distribution.check();
   } catch (const InputError& error) {
@@ -43,8 +43,8 @@ void check_random_input(const Scene& scene, const RandomVariable& variable, cons
   const auto tables = tables_to_solve(scene, changed);
   if (!tables.empty())
     refuse(
-        fmt::format("changes the stiffness table of the {}, which every sample would have to solve again; use "
-                    "[[sweep]] or [sensitivity], or give the stiffness in [mesh]",
+        fmt::format("changes the stiffness table of the {}, and every sample would have to compute it again; use "
+                    "[[sweep]] or [sensitivity], or prescribe the stiffness in [mesh]",
                     tables.front()));
 }
 

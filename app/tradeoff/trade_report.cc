@@ -35,7 +35,7 @@ std::string setting_text(const TradePoint& p) { return p.fidelity + ", " + p.set
 /// "For 1 %: plane, degree 2, level 1, 0.3 s, 240 MB (worst: ...)".
 std::string cheapest_text(const VariantTrade& variant, TradePart part, double accuracy) {
   const auto* p = variant.cheapest(part, accuracy);
-  if (!p) return fmt::format("For {}: no setting but the finest.", percent(accuracy));
+  if (!p) return fmt::format("For {}: only the finest setting.", percent(accuracy));
   return fmt::format("For {}: {}; {}, {:.0f} MB; errors up to {} ({}).", percent(accuracy), setting_text(*p),
                      duration_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()),
                      variant.title(p->worst()->key));
@@ -43,7 +43,7 @@ std::string cheapest_text(const VariantTrade& variant, TradePart part, double ac
 
 /// "The planner, asked for 1 %: 3.1 s, 400 MB; errors up to 0.2 % (...)".
 std::string planned_text(const VariantTrade& variant, const TradePoint& p) {
-  const std::string text = fmt::format("The planner, asked for {}: ", percent(*p.planned_for));
+  const std::string text = fmt::format("The planner for {}: ", percent(*p.planned_for));
   if (!p.failure.empty()) return text + p.failure;
   const auto* worst = variant.worst_guaranteed(p);
   return text + fmt::format("{}, {:.0f} MB; errors up to {}{}.", duration_text(p.cost.wall), p.cost.peak_memory_MB,
@@ -73,14 +73,14 @@ Plot errors_plot(const std::string& title, const std::string& y_label, int heigh
 
 /// The cheapest setting for every figure and accuracy: what a user asks who wants one thing.
 PageTable cheapest_table(const VariantTrade& variant, TradePart part) {
-  PageTable table{.head = {"figure"}};
+  PageTable table{.head = {"result"}};
   for (const double accuracy : wanted_accuracies) table.head.emplace_back(percent(accuracy));
   for (const auto& figure : variant.figures) {
     if (variant.front(part, figure.key).empty()) continue;
     std::vector<Text> row = {figure.title};
     for (const double accuracy : wanted_accuracies) {
       const auto* p = variant.cheapest(part, accuracy, figure.key);
-      row.push_back(p ? setting_text(*p) + " " + muted(duration_text(p->cost.wall)) : Text("the finest alone"));
+      row.push_back(p ? setting_text(*p) + " " + muted(duration_text(p->cost.wall)) : Text("only the finest"));
     }
     table.rows.push_back(std::move(row));
   }
@@ -89,7 +89,7 @@ PageTable cheapest_table(const VariantTrade& variant, TradePart part) {
 
 /// The front of every figure.
 Plot fronts_plot(const VariantTrade& variant, TradePart part) {
-  Plot plot = errors_plot("The front of every figure", "error", 460);
+  Plot plot = errors_plot("The front of every result", "error", 460);
   for (std::size_t f = 0; f < variant.figures.size(); ++f) {
     const auto& figure = variant.figures[f];
     Series series{.label = figure.title, .colour = f};
@@ -119,7 +119,7 @@ Blocks estimates_text(const VariantTrade& variant, TradePart part) {
 }
 
 PageTable points_table(const VariantTrade& variant, TradePart part) {
-  PageTable table{.head = {"how", "setting", "wall", "processor", "memory", "largest error", "in"},
+  PageTable table{.head = {"model", "setting", "wall", "processor", "memory", "largest error", "result"},
                   .style = PageTable::Style::numbers};
   const auto front = variant.front(part);
   for (const auto* point : variant.of(part)) {
@@ -171,15 +171,14 @@ Blocks part_section(const VariantTrade& variant, TradePart part) {
          paragraph(fmt::format("Compared with: {}; {}, {:.0f} MB.", setting_text(*finest),
                                duration_text(finest->cost.wall), finest->cost.peak_memory_MB)) +
          cheapest +
-         Pictures{
-             {trade_plot(variant, part), fronts_plot(variant, part)},
-             {},
-             "Largest error over all figures against wall time. The line joins the settings that no other beats in "
-             "both; what leaves parts of the model out is marked apart."} +
-         paragraph("The cheapest setting for one figure alone:") + cheapest_table(variant, part) +
+         Pictures{{trade_plot(variant, part), fronts_plot(variant, part)},
+                  {},
+                  "Largest error over all results against wall time. The line joins the settings that no other setting "
+                  "beats in both. Settings that leave parts of the model out have their own mark."} +
+         paragraph("The cheapest setting for one result alone:") + cheapest_table(variant, part) +
          paragraph("All settings (bold: on the front of the largest error):") + points_table(variant, part) +
          estimates_text(variant, part) +
-         details("Error of every figure (in brackets: the program's own estimate)", errors_table(variant, part));
+         details("Error of every result (in brackets: the estimate of the program)", errors_table(variant, part));
 }
 
 }  // namespace

@@ -277,13 +277,15 @@ TradeOff measure_tradeoff(const Scene& scene, const RunOptions& given, const Tra
   const auto variants = system->variants().size();
   for (std::size_t variant = 0; variant < variants; ++variant)
     if (!scene.dynamics && !all_computed(meshes_of(*system, variant)))
-      throw InputError(fmt::format("{}: '{}' has a given stiffness and no [dynamics]: there is nothing to trade",
-                                   scene.file.string(), system->title(variant)));
+      throw InputError(
+          fmt::format("{}: '{}' has a prescribed stiffness and no [dynamics]: there are no settings to compare",
+                      scene.file.string(), system->title(variant)));
   for (std::size_t variant = 0; variant < variants; ++variant) {
     trade.variants.push_back(Measurement(*system, variant, options, lists).run());
     if (trade.variants.back().points.empty())
       throw InputError(
-          fmt::format("{}: '{}' has a given stiffness and one way to its results: there is nothing to trade",
+          fmt::format("{}: '{}' has a prescribed stiffness and only one way to compute its results: there are no "
+                      "settings to compare",
                       scene.file.string(), system->title(variant)));
   }
   for (const auto& variant : trade.variants) {

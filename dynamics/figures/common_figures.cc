@@ -13,7 +13,7 @@ std::string frequency_key(int i) { return fmt::format("frequency_{}_Hz", i); }
 FigureSpec steady_figure() {
   return {.key = "steady",
           .title = "Periodic",
-          .definition = "1 where a periodic steady state was found, otherwise 0",
+          .definition = "1 if a periodic steady state was found, otherwise 0",
           .term = "error_period",
           .better = Better::larger,
           .headline = true};

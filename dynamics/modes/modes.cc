@@ -88,10 +88,11 @@ Eigen::MatrixXd mesh_stiffness_matrix(const LumpedSystem& system, const Eigen::V
     const Eigen::MatrixXd scaled = root.asDiagonal() * compliance * root.asDiagonal();
     const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(n, n) + scaled);
     if (factor.info() != Eigen::Success)
-      throw SolverError(fmt::format(
-          "the coupling of {} meshes (the first: {}) takes off more compliance than they have. Its elastic modes were "
-          "found with supports that hold in both directions; they do not fit a body that lifts off many supports",
-          n, first.name));
+      throw SolverError(
+          fmt::format("the coupling of {} meshes (the first: {}) subtracts more compliance than they have. Its elastic "
+                      "modes were computed with supports that hold in both directions; they are not valid for a body "
+                      "that lifts off many supports",
+                      n, first.name));
     const Eigen::MatrixXd stiffness =
         root.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(n, n)) * root.asDiagonal();
     for (Eigen::Index i = 0; i < n; ++i)

@@ -279,9 +279,10 @@ PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, 
   const Eigen::Index samples = static_cast<Eigen::Index>(response.solved_cycles) * samples_per_cycle;
   const double points = solved * linear.fastest() / PeriodWalk::radians;
   if (points > most_points) {
-    response.trouble =
-        fmt::format("the fastest motion is too fast for the period: {:.2g} points of every mesh, {:.2g} at most",
-                    points, most_points);
+    response.trouble = fmt::format(
+        "the fastest motion is too fast for the period: it needs {:.2g} points of every mesh; at most {:.2g} are "
+        "possible",
+        points, most_points);
     return response;
   }
   const PiecewisePeriodMap map(linear, pieces);

@@ -163,8 +163,9 @@ class SteadyStateFinder {
       throw SolverError(message);
     }
     tightening_ *= tenfold;
-    log::info(fmt::format("the time integration lost {:.2g} of the energy; again with a relative tolerance of {:.0e}",
-                          lost, tightening_ * options_.integrator.relative_tolerance));
+    log::info(fmt::format(
+        "the time integration lost {:.2g} of the energy; it is repeated with a relative tolerance of {:.0e}", lost,
+        tightening_ * options_.integrator.relative_tolerance));
     integration_.reset();
     response_.confirmed = false;
     if (periodic_.windows) return {&SteadyStateFinder::confirm};

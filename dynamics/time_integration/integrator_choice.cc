@@ -33,10 +33,10 @@ Eigen::VectorXcd state_eigenvalues(const LumpedSystem& system) {
   state.bottomLeftCorner(n, n) = -rates / (w * w);
   state.bottomRightCorner(n, n) = -mass.solve(damping) / w;
   if (!state.allFinite())
-    throw InputError(fmt::format(
-        "a stiffness divided by a mass or an inertia is no finite number (largest finite rate {:.2g} rad/s): "
-        "a body is too light or too stiff",
-        w));
+    throw InputError(
+        fmt::format("a stiffness divided by a mass or an inertia is not a finite number (largest finite rate {:.2g} "
+                    "rad/s): a body is too light or too stiff",
+                    w));
   return w * eigenvalues(state, "the eigenvalues");
 }
 
@@ -95,25 +95,24 @@ IntegratorChoice choose_integrator(const LumpedSystem& system, double relative_t
   choice.explicit_steps = std::max(needed, 1.0);
   if (choice.stability_step >= break_even) {
     choice.reason = fmt::format(
-        "explicit Runge-Kutta: stable with {:.0f} steps per mesh cycle, BDF would take {:.0f}, "
-        "each at twice the cost",
+        "explicit Runge-Kutta: stable with {:.0f} steps per mesh cycle; BDF needs {:.0f} steps, each at twice the cost",
         std::ceil(needed), steps_of_bdf);
   } else if (choice.least_damping < well_damped && needed > explicit_steps_of_implicit(system, choice.least_damping)) {
     choice.method = Integrator::arkode_implicit;
     choice.reason = fmt::format(
-        "L-stable Runge-Kutta: stability would ask the explicit method for {:.2g} steps per mesh cycle, most of which "
-        "would follow motions (damping ratio {:.3f}) that have died out",
+        "L-stable Runge-Kutta: for stability the explicit method needs {:.2g} steps per mesh cycle, most of them for "
+        "motions (damping ratio {:.3f}) that have decayed",
         std::ceil(needed), choice.least_damping);
   } else if (choice.least_damping < well_damped) {
     choice.reason = fmt::format(
-        "explicit Runge-Kutta: stiff ({:.0f} steps per mesh cycle for stability), but fast "
-        "motions are lightly damped (ratio {:.3f}) and have to be followed",
+        "explicit Runge-Kutta: stiff ({:.0f} steps per mesh cycle for stability), but fast motions are lightly damped "
+        "(ratio {:.3f}) and have to be resolved",
         std::ceil(needed), choice.least_damping);
   } else {
     choice.method = Integrator::cvode_bdf;
     choice.reason = fmt::format(
-        "BDF: stability would ask the explicit method for {:.0f} steps per mesh cycle where "
-        "BDF takes {:.0f}; the fast motions are well damped (ratio {:.2f} or more)",
+        "BDF: for stability the explicit method needs {:.0f} steps per mesh cycle, BDF needs {:.0f}; the fast motions "
+        "are well damped (ratio {:.2f} or more)",
         std::ceil(needed), steps_of_bdf, choice.least_damping);
   }
   return choice;
@@ -132,7 +131,7 @@ void check_fixed_step(const LumpedSystem& system, double mesh_frequency, double 
   if (step <= largest) return;
   throw InputError(fmt::format(
       "the fixed-step Runge-Kutta method is unstable with {:.4g} steps per mesh cycle (dynamics.steps_per_cycle): the "
-      "fastest motion asks for {:.4g}, accuracy for several times more; other integrators choose their steps",
+      "fastest motion needs {:.4g}, accuracy needs several times more; other integrators choose their steps",
       1 / (mesh_frequency * step), std::ceil(1 / (mesh_frequency * largest))));
 }
 

@@ -26,8 +26,8 @@ BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfil
   const bool face_held = ring_.held == HeldSurface::low_end_face || ring_.held == HeldSurface::both_end_faces;
   if (face_held && !(ring_.held_inner_radius > 0 && ring_.held_inner_radius < outside))
     throw InputError(
-        fmt::format("a ring {} is held from an inner radius of {:.7g} mm out to its outside radius of {:.7g} mm: the "
-                    "inner one has to be positive and smaller",
+        fmt::format("a ring {} is fixed from an inner radius of {:.7g} mm to its outside radius of {:.7g} mm: the "
+                    "inner radius has to be positive and smaller",
                     words.description, 1e3 * ring_.held_inner_radius, 1e3 * outside));
   if (ring_.held_inner_radius > 0) rim_.circles = {ring_.held_inner_radius};
   if (ring_.hoop || ring_.flange) {
@@ -50,10 +50,9 @@ BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfil
       break;
     case HeldSurface::none:
       if (helical)
-        throw InputError(
-            fmt::format("helical rings on pins or splines are not modelled, and this one has {}: hold the "
-                        "outside or the end face",
-                        words.description));
+        throw InputError(fmt::format(
+            "helical rings on pins or splines are not modelled, and this one has {}: fix the outside or the end face",
+            words.description));
       model_.held = HeldBoundary::none;
       model_.outputs = {SectorOutput::outside};
       break;

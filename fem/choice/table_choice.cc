@@ -52,10 +52,10 @@ constexpr MissedPeaks missed_peaks[] = {
 void choose_loads(double accuracy, TableResolution& choice) {
   if (accuracy >= rough_accuracy) {
     choice.load_factors = {0.5, 1, 1.5};
-    choice.loads_reason = "three loads show how the stiffness follows the load; a single one would miss 1 to 2 %";
+    choice.loads_reason = "three loads show how the stiffness depends on the load; a single one would miss 1 to 2 %";
   } else {
     choice.load_factors = {std::begin(table_load_factors), std::end(table_load_factors)};
-    choice.loads_reason = "five, down to a quarter and up to twice the nominal load: what dynamic loads reach";
+    choice.loads_reason = "five, from a quarter to twice the nominal load: the range of dynamic loads";
   }
 }
 
@@ -66,11 +66,12 @@ TableResolution table_resolution(double accuracy, double uptake, double overlap_
   choose_loads(accuracy, choice);
   const bool slow = overlap_ratio >= 1;
   if (slow && accuracy >= linear_accuracy) {
-    choice.phases_reason = "helical teeth that overlap by a pitch pass their load on slowly: 64 positions add nothing";
+    choice.phases_reason =
+        "helical teeth that overlap by a pitch transfer their load slowly: 64 positions change nothing";
     return choice;
   }
   if (accuracy >= very_rough_accuracy) {
-    choice.phases_reason = "between 32 positions peak factors are missed by 2 %, by 6 % under light loads";
+    choice.phases_reason = "with 32 positions the error of peak factors is 2 %, under light loads 6 %";
     return choice;
   }
   const auto* peaks = std::begin(missed_peaks);
@@ -78,8 +79,8 @@ TableResolution table_resolution(double accuracy, double uptake, double overlap_
   while (!slow && peaks != finest && peaks->relative > accuracy) ++peaks;
   choice.phases = peaks->phases;
   choice.phases_reason =
-      slow ? "helical teeth that overlap by a pitch pass their load on slowly: 128 positions add nothing"
-           : fmt::format("between {} positions peak factors are missed by up to {:.2g} %", choice.phases,
+      slow ? "helical teeth that overlap by a pitch transfer their load slowly: 128 positions change nothing"
+           : fmt::format("with {} positions the error of peak factors is up to {:.2g} %", choice.phases,
                          100 * peaks->relative);
   const double within = accuracy < linear_accuracy ? 2 : 1;  // positions within which a light load is taken up
   if (choice.phases * uptake < 1) {
@@ -94,10 +95,10 @@ ElementChoice element_choice(const LoadedMeshProblem& problem, Fidelity fidelity
   if (const auto unfit = unfit_for_linear(problem); !unfit.empty()) return {2, "quadratic elements: " + unfit};
   const double enough = hard_for_linear(problem) ? rough_accuracy : linear_accuracy;
   if (accuracy >= enough && (fidelity == Fidelity::plane || fidelity == Fidelity::solid))
-    return {1, fmt::format("linear elements are within {:.0f} % at once, at {} of the cost of quadratic ones, which "
-                           "follow where they are not",
+    return {1, fmt::format("linear elements reach {:.0f} % at their first level, at {} of the cost of quadratic ones; "
+                           "if they do not, quadratic ones follow",
                            100 * enough, fidelity == Fidelity::plane ? "half" : "an eighth")};
-  return {2, fmt::format("quadratic elements are within {} at once, and their stresses can be used",
+  return {2, fmt::format("quadratic elements reach {} at their first level, and their stresses can be used",
                          fidelity == Fidelity::solid ? "0.3 to 1 %" : "0.3 %")};
 }
 

@@ -242,8 +242,8 @@ ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothConta
     for (const auto& apart : contacts.apart)
       if (gap_left(flanks, contacts, apart, planet, wheel, cycle, result.solution) <= 0)
         throw SolverError(
-            fmt::format("mesh phase {:.4f}: {:.4g} N close the {:.3g} mm between two tips, or flanks, beyond the "
-                        "path of contact, which formulas do not cover: use model = \"plane\"",
+            fmt::format("mesh phase {:.4f}: under {:.4g} N two tips or flanks with a gap of {:.3g} mm touch beyond the "
+                        "path of contact. Formulas do not cover this: use model = \"plane\"",
                         contacts.phase, load, 1e3 * apart.gap));
     for (Eigen::Index i = 0; i < pairs; ++i)
       result.lines.push_back(force[i] > 0 ? contacts.pairs[i].line.at(force[i]) : LineContact::State{});

@@ -175,10 +175,10 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
     }
     if (window_too_small) {
       if (window > largest_window)
-        throw InputError(fmt::format(
-            "mesh phase {:.4f}: under {:.4g} N the flanks touch over more than {} Hertz half-widths to either side: "
-            "they give way by more than small displacements; {}",
-            phase, whole_load, largest_window, remedy));
+        throw InputError(
+            fmt::format("mesh phase {:.4f}: under {:.4g} N the flanks touch over more than {} Hertz half-widths to "
+                        "either side: the displacements are not small; {}",
+                        phase, whole_load, largest_window, remedy));
       window *= 1.5;
       continue;
     }
@@ -193,8 +193,8 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
     }
     if (proof.closest_approach >= range_.gap_beyond)
       throw InputError(
-          fmt::format("mesh phase {:.4f}: under {:.4g} N flanks approach each other by {:.4g} mm; contacts are looked "
-                      "for where they are up to {:.4g} mm apart without load; {}",
+          fmt::format("mesh phase {:.4f}: under {:.4g} N flanks approach each other by {:.4g} mm; contacts are "
+                      "searched up to a gap of {:.4g} mm without load; {}",
                       phase, whole_load, 1e3 * proof.closest_approach, 1e3 * range_.gap_beyond, remedy));
     LoadedPosition position = evaluate(bodies_, setup, problem, solution);
     if (forces != nullptr) *forces = port_forces(bodies_, setup, cycle, solution);

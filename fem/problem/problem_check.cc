@@ -51,9 +51,9 @@ void check_deflection(const LoadedMeshProblem& problem, const LoadedMeshSettings
   const double modules = deflection / problem.pair.pinion().parameters().module;
   if (modules <= settings.largest_deflection) return;
   throw InputError(
-      fmt::format("the {} mesh gives way by {:.4g} mm = {:.3g} modules under {:.4g} N; small displacements and strains "
-                  "are computed, up to {} modules: reduce the load, or make teeth, rim, supports or material stiffer "
-                  "and their clearances smaller",
+      fmt::format("the {} mesh deflects by {:.4g} mm = {:.3g} modules under {:.4g} N; the model is for small "
+                  "displacements and strains, up to {} modules. Reduce the load, or make teeth, rim, supports or "
+                  "material stiffer and their clearances smaller",
                   problem.pair.internal() ? "ring" : "external", 1e3 * deflection, modules, position.load,
                   settings.largest_deflection));
 }

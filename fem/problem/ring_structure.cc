@@ -8,8 +8,8 @@ namespace annulus::fem {
 RingDescription OutsideHeld::describe(double /*outside_radius*/) const {
   RingDescription d;
   d.words.name = "outside_held";
-  d.words.description = "outer surface held";
-  d.words.plane_reason = "the outer surface is held over the full width";
+  d.words.description = "outer surface fixed";
+  d.words.plane_reason = "the outer surface is fixed over the full width";
   return d;
 }
 

@@ -204,13 +204,13 @@ BOOST_AUTO_TEST_CASE(tables_that_are_none) {
     BOOST_TEST(message.starts_with(place), "cut at " << length << ": " << message);
   }
   refused("", "no line with column names");
-  refused("mesh_phase\n", "is no stiffness table");
+  refused("mesh_phase\n", "is not a stiffness table");
   refused(good_table("sun_planet"), "table of the mesh sun_planet");
   refused(good_table("other"), "table of the mesh other");
-  refused("a,b\n1,2\n", "is no stiffness table");
-  refused("{\"json\": 1}\n", "is no stiffness table");
-  refused(std::string(100'000, '\0') + "\n", "is no stiffness table");
-  refused("\xff\xfe\x01\n", "is no stiffness table");
+  refused("a,b\n1,2\n", "is not a stiffness table");
+  refused("{\"json\": 1}\n", "is not a stiffness table");
+  refused(std::string(100'000, '\0') + "\n", "is not a stiffness table");
+  refused("\xff\xfe\x01\n", "is not a stiffness table");
   refused(good + "0.5,0", "the last line has no end");
   refused(good.substr(good.find('\n') + 1), "no line '# mesh:");
   for (const auto* cell :

@@ -198,8 +198,7 @@ BOOST_AUTO_TEST_CASE(errors_are_the_sum_of_their_parts_and_are_kept) {
              parts[0].errors.discretisation);
   BOOST_TEST(ring["peak_factor_error_parts"]["ring_planet"][4]["table_interpolation"].get<double>() ==
              parts[24].errors.interpolation);
-  BOOST_TEST(app::html(app::key_results(first, {{"", ""}}, "")).find("What the error bars contain") !=
-             std::string::npos);
+  BOOST_TEST(app::html(app::key_results(first, {{"", ""}}, "")).find("Parts of the error bars") != std::string::npos);
   // Another error is another response.
   BOOST_TEST(!TableScene{.sun_error = 0.02}.run(folder.path()).rings[0].response->reused);
 }

@@ -169,10 +169,9 @@ BOOST_AUTO_TEST_CASE(folders_that_cannot_be_compared_are_refused) {
   check_comparison_refused({good, "/nowhere/out"}, {"/nowhere/out", "no such folder", "annulus run"});
   check_comparison_refused({good, good + "/summary.json"}, {"summary.json", "not a folder"});
   fs::create_directories(folder.path() / "empty");
-  check_comparison_refused({good, (folder.path() / "empty").string()}, {"empty", "holds no run"});
+  check_comparison_refused({good, (folder.path() / "empty").string()}, {"empty", "contains no run"});
   fs::create_directories(folder.path() / "begun" / "cache");
-  check_comparison_refused({(folder.path() / "begun").string(), good},
-                           {"begun", "not finished", "goes on where it stopped"});
+  check_comparison_refused({(folder.path() / "begun").string(), good}, {"begun", "not finished", "continue it with"});
   const auto text = summary.dump(1);
   check_comparison_refused({good, with("cut", text.substr(0, text.size() / 2))},
                            {"cut/summary.json", "damaged", "again"});
@@ -268,7 +267,7 @@ BOOST_AUTO_TEST_CASE(finished_runs_of_the_program) {
     BOOST_TEST(!fs::exists(folder.path() / "bad.csv"));
     BOOST_TEST(!fs::exists(folder.path() / "comparison.html"));
   };
-  refused("soft pair -o bad.html", "have no figures in common");
+  refused("soft pair -o bad.html", "have no common results");
   refused("soft -o bad.html", "two finished runs");
   refused("-o bad.html", "two finished runs");
   refused("soft soft -o bad.html", "twice");

@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(the_ring_matrix_is_inverted) {
   export_to(folder.path(), "ring_compliance.csv --to csv -o ring.csv");
   BOOST_TEST(read_with(python + "matrix ring_compliance.csv .", folder.path()) ==
              fmt::format("{}\n", 3 * teeth * teeth));
-  BOOST_TEST(refusal(folder.path(), "export ring_compliance.csv --to adams").find("is no stiffness table") !=
+  BOOST_TEST(refusal(folder.path(), "export ring_compliance.csv --to adams").find("is not a stiffness table") !=
              std::string::npos);
 }
 

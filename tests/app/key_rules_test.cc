@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(keys_that_apply_or_are_needed_under_a_condition) {
   const auto refused = shapes([](app::Declared d) { d.refused_if(given("width_mm"), "one follows from the other"); });
   BOOST_TEST(rule_problems(refused, {depth_of(3), absent("shape.width_mm")}).empty());
   BOOST_TEST(the_only_message(rule_problems(refused, {depth_of(3), written("shape.width_mm", 2.0)})) ==
-             "shape.depth_mm = 3: cannot stand beside width_mm: one follows from the other");
+             "shape.depth_mm = 3: cannot be used together with width_mm: one follows from the other");
 }
 
 BOOST_AUTO_TEST_CASE(each_entry_of_an_array_has_its_own_conditions) {

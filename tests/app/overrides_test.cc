@@ -116,8 +116,8 @@ BOOST_AUTO_TEST_CASE(wrong_paths_and_values_are_refused) {
   check_message(refusal(scene, {"stage.kind", 1}), {"stage.kind", "not a number"});
   check_message(refusal(scene, {"title", 1}), {"not a number"});
   check_message(refusal(scene, {"monte_carlo.samples", 1}), {"monte_carlo.samples"});
-  check_message(refusal(scene, {"ring.splines", 54}), {"no ring of this scene gives it"});
-  check_message(refusal(scene, {"ring.pins", 12.5}), {"ring.pins = 12.5", "whole number", "never rounded"});
+  check_message(refusal(scene, {"ring.splines", 54}), {"no ring of this scene has this key"});
+  check_message(refusal(scene, {"ring.pins", 12.5}), {"ring.pins = 12.5", "whole number", "not rounded"});
   check_message(refusal(scene, {"ring.pins", 0}), {"ring.pins = 0", "1 <= value <= 2000"});
   check_message(refusal(scene, {"stage.power_kW", -1}), {"stage.power_kW = -1", "0 < value"});
   check_message(refusal(scene, {"errors.planet_eccentricity_um", 1}), {"is a list", "[1] for planet 1"});

@@ -226,7 +226,8 @@ BOOST_AUTO_TEST_CASE(tables_outside_their_loads_fail_their_row_alone) {
       run_pair_text(test::solved_pair() + "[transmission_error]\npinion_torques_Nm = [600, 5000]\n", folder.path());
   BOOST_TEST(result.shares[0].failure.empty());
   BOOST_TEST(!result.shares[1].failure.empty());
-  BOOST_TEST(read_file(folder.path() / "report.html").find("Left out, for no response was found") != std::string::npos);
+  BOOST_TEST(read_file(folder.path() / "report.html").find("Left out, because no response was found") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_scene_without_dynamics_has_stiffness_and_errors) {

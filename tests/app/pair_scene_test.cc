@@ -303,7 +303,7 @@ BOOST_AUTO_TEST_CASE(what_needs_several_changes_is_refused_too) {
           "modifications have no closed form");
   auto still =
       test::replaced(test::quick_pair(), "[manufacturing_error]\n", "[manufacturing_error]\nreading = \"none\"\n");
-  refused(test::replaced(still, "pinion_torque_Nm = 20000", "pinion_torque_Nm = 0"), "nothing moves the pair");
+  refused(test::replaced(still, "pinion_torque_Nm = 20000", "pinion_torque_Nm = 0"), "nothing excites the pair");
   // Gears that cannot exist are told where they are made.
   const auto pointed =
       parsed_pair(test::replaced(test::quick_pair(), "teeth = 21\nprofile_shift = 0", "teeth = 8\nprofile_shift = 0"));

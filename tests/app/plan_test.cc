@@ -130,11 +130,11 @@ BOOST_AUTO_TEST_CASE(solid_meshes_tell_what_of_the_face_they_solve) {
   const auto usual = planned("");
   BOOST_TEST(symmetry(usual.meshes[0]).choice == "nothing");  // a plane has no face
   BOOST_TEST(symmetry(usual.meshes[2]).choice == "whole face");
-  BOOST_TEST(symmetry(usual.meshes[2]).reason == "held at one end face");
+  BOOST_TEST(symmetry(usual.meshes[2]).reason == "fixed at one end face");
   const auto solid = planned("model = \"solid\"");
   for (const std::size_t mesh : {0U, 1U, 3U}) {  // sun, traditional, pinned
     BOOST_TEST(symmetry(solid.meshes[mesh]).choice == "half of the face");
-    BOOST_TEST(symmetry(solid.meshes[mesh]).reason.find("mirror image") != std::string::npos);
+    BOOST_TEST(symmetry(solid.meshes[mesh]).reason.find("symmetric about") != std::string::npos);
   }
   BOOST_TEST(app::to_text(solid).find("half of the face") != std::string::npos);
   BOOST_TEST(app::to_json(solid).find("\"half of the face\"") != std::string::npos);
@@ -245,7 +245,7 @@ BOOST_AUTO_TEST_CASE(structures_their_fidelity_and_why) {
     BOOST_TEST(m.positions == positions, ring << ": " << m.positions);
     BOOST_TEST(m.reason.find(word) != std::string::npos, m.reason);
   };
-  check("traditional", "plane", 1, "held over the full width");
+  check("traditional", "plane", 1, "fixed over the full width");
   check("flange", "solid", 1, "flange");
   check("thin-walled", "solid", 1, "one end face");
   check("thin-walled-hoop", "solid", 1, "hoop");

@@ -226,7 +226,7 @@ BOOST_AUTO_TEST_CASE(folders_that_annulus_did_not_make) {
     fs::create_directories(out);
     write_file(out / name, "mine");
     check_refused(run_with_cache(folder.path(), "run scene.toml -o with_" + name), 2,
-                  {"with_" + name + "/" + name, "is there already, and annulus did not write it"});
+                  {"with_" + name + "/" + name, "exists already, and annulus did not write it"});
     BOOST_TEST(read_file(out / name) == "mine");
     BOOST_TEST(std::distance(fs::directory_iterator(out), {}) == 1);
   }

@@ -114,8 +114,8 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told_with_its_line) {
     BOOST_TEST(message.find(what) != std::string::npos, message);
     BOOST_TEST(message.find(other.file.string() + ":") == 0U, message);
   };
-  tells("phase,stiffness_N_per_m\n0,1\n", ":1: is no stiffness table: no column mesh_phase");
-  tells("mesh_phase,stiffness\n0,1\n", ":1: is no stiffness table: no column stiffness_N_per_m");
+  tells("phase,stiffness_N_per_m\n0,1\n", ":1: is not a stiffness table: no column mesh_phase");
+  tells("mesh_phase,stiffness\n0,1\n", ":1: is not a stiffness table: no column stiffness_N_per_m");
   tells("mesh_phase,lte_um\n0,1\n", "lte needs a column load_N");
   tells(head, "no data");
   tells(head + three, "at least four phases");

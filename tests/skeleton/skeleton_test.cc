@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(results_studies_and_files_are_those_of_every_kind) {
   BOOST_TEST(summary["kind"] == "torsional_pair");
   BOOST_TEST(read_file(folder.path() / "figures.csv").find("natural_frequency_Hz") != std::string::npos);
   BOOST_TEST(app::run_text(*result).find("Natural frequency") != std::string::npos);
-  for (const auto* part : {"Deflection of the mesh", "What was modelled", "Spread over what is not known"})
+  for (const auto* part : {"Deflection of the mesh", "Model, with reasons", "Spread over unknown inputs"})
     BOOST_TEST(read_file(folder.path() / "report.html").find(part) != std::string::npos, part);
 }
 

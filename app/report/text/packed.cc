@@ -16,7 +16,7 @@ std::string packed(const std::string& text) {
   std::vector<unsigned char> bytes(size);
   const int status = ::compress2(bytes.data(), &size, reinterpret_cast<const unsigned char*>(text.data()), text.size(),
                                  Z_BEST_COMPRESSION);
-  require(status == Z_OK, fmt::format("zlib answers {} to {} bytes", status, text.size()));
+  require(status == Z_OK, fmt::format("zlib returned the status {} for {} bytes", status, text.size()));
   bytes.resize(size);
   using namespace boost::archive::iterators;
   using Digits = base64_from_binary<transform_width<std::vector<unsigned char>::const_iterator, 6, 8>>;

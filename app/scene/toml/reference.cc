@@ -22,7 +22,7 @@ Declarations<Entry> entries(const char* path, const char* meaning, std::vector<E
 /// What the paper says, and where.
 template <class Entry>
 Table stated(Declarations<Entry>& table) {
-  table.key("statement", &Entry::statement, "What is stated.").required();
+  table.key("statement", &Entry::statement, "The published statement.").required();
   table.key("where", &Entry::where, "Section or figure of the source.");
   return table.done();
 }
@@ -31,16 +31,16 @@ std::vector<Table> reference_tables() {
   Declarations<Reference> top("", "", [](Scene& s, std::size_t) -> Reference& { return s.own<Reference>(); });
   top.key("source", &Reference::source, "Where the values were published.").required();
   top.key("doi", &Reference::doi, "Its digital object identifier.");
-  top.key("note", &Reference::note, "What has to be known to judge the comparison.");
+  top.key("note", &Reference::note, "Remarks that help to judge the comparison.");
 
   using Order = Reference::Order;
   auto order = entries("order", "Rings in the order of one result.", &Reference::orders);
   order.key("quantity", &Order::quantity, "The result.").required();
-  order.key("rings", &Order::rings, "Largest first; a single one is larger than all others.")
+  order.key("rings", &Order::rings, "Ring with the largest value first; a single ring is larger than all others.")
       .not_empty("ring")
       .required();
   order.key("values", &Order::values, "Published numbers, one per ring or none.").from(-widest, widest);
-  order.key("margin", &Order::margin, "Relative difference that is stated.").from(0, widest);
+  order.key("margin", &Order::margin, "Published relative difference.").from(0, widest);
 
   using AtPin = Reference::AtPin;
   auto at_pin = entries("at_pin", "A ring stiffer at a pin than between pins.", &Reference::at_pins);

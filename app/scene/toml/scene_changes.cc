@@ -36,7 +36,7 @@ double changed_value(const Scene& scene, const InputTarget& target, std::size_t 
   const bool whole = target.parameter->kind == Parameter::Kind::integer;
   if (whole && (value != std::floor(value) || std::abs(value) > 1e9))
     throw InputError(
-        fmt::format("{} = {}: must be a whole number, and is never rounded", change.input, to_text(value, 15)));
+        fmt::format("{} = {}: must be a whole number; it is not rounded", change.input, to_text(value, 15)));
   return value;
 }
 

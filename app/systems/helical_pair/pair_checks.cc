@@ -36,10 +36,9 @@ class PairChecker : KeyChecks {
     const bool tabulated =
         m.stiffness == Shape::computed || m.stiffness == Shape::closed_form || m.stiffness == Shape::table;
     if (tabulated && usable("stage.pinion_torque_Nm") && scene_.stage.pinion_torque <= 0)
-      problem(
-          "stage.pinion_torque_Nm",
-          "must be above 0 with a tabulated stiffness (computed, closed_form or table): it holds for loaded driving "
-          "flanks");
+      problem("stage.pinion_torque_Nm",
+              "must be above 0 with a tabulated stiffness (computed, closed_form or table): the table is for loaded "
+              "driving flanks");
   }
 
   void errors() {
@@ -52,7 +51,8 @@ class PairChecker : KeyChecks {
         problem(table + gear + "_tooth_to_tooth_um",
                 fmt::format("must not exceed {}_total_um, value <= {} µm: a turn contains every pitch", gear,
                             to_text(total / units::um)));
-      if (total == 0) problem(table + gear + "_total_um", "must be above 0: without deviations there is no law");
+      if (total == 0)
+        problem(table + gear + "_total_um", "must be above 0: without deviations there is no distribution");
     };
     order("pinion", m.pinion_total, m.pinion_tooth_to_tooth);
     order("wheel", m.wheel_total, m.wheel_tooth_to_tooth);
@@ -71,7 +71,7 @@ class PairChecker : KeyChecks {
     const bool no_error = e.mesh_error.value_or(0) == 0 && e.pinion_error == 0 && e.wheel_error == 0 &&
                           (!scene_.manufacturing_error || scene_.manufacturing_error->reading == "none");
     if (usable("stage.pinion_torque_Nm") && scene_.stage.pinion_torque == 0 && no_error)
-      problem("stage.pinion_torque_Nm", "must not be 0 without errors: nothing moves the pair");
+      problem("stage.pinion_torque_Nm", "must not be 0 without errors: nothing excites the pair");
   }
 
   /// Derived inputs, and checks that need the geometry of the gears.

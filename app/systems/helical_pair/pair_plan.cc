@@ -47,7 +47,7 @@ std::vector<DofPlan> pair_dofs(const Scene& scene) {
     };
     add(" y", "bearing along the line of action", gear.bearing_transverse);
     add(" z", "axial bearing", gear.bearing_axial);
-    list.push_back({name + " u", true, "free to turn: carries the power"});
+    list.push_back({name + " u", true, "free to turn: transmits the power"});
   }
   return list;
 }
@@ -56,13 +56,14 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
   std::vector<std::string> list;
   if (mesh.computed())
     list.emplace_back(
-        "Only the driving flanks are solved, without friction; the contact is hard and the sliding small.");
+        "Only the driving flanks are solved, without friction. The contact is hard (no penetration), and sliding is "
+        "small.");
   list.emplace_back(
-      "Stiffness, error and backlash of the lumped model act along the normal of the flanks; a stiffness table holds "
-      "the transverse section and is turned by cos² of the base helix angle.");
+      "Stiffness, error and backlash of the lumped model act along the normal of the flanks. A stiffness table is for "
+      "the transverse section; it is converted with cos² of the base helix angle.");
   if (scene.dynamics) {
     if (!scene.pinion.inertia || !scene.wheel.inertia)
-      list.emplace_back("Inertias that are not given are those of solid discs of the given mass.");
+      list.emplace_back("If an inertia is not given, it is that of a solid disc of the given mass.");
     // A gear heavier than its disc has a shaft, a lighter one a web: either makes the disc's inertia a guess.
     for (const auto& [name, gear, input] :
          {std::tuple{"pinion", &geometry.pinion(), &scene.pinion}, {"wheel", &geometry.wheel(), &scene.wheel}}) {

@@ -129,7 +129,7 @@ std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeomet
   }
   list.push_back(closed);
   MeanStiffness computed{"computed", not_known, not_known,
-                         "not solved here; stiffness = \"computed\" in [mesh.pinion_wheel] asks for it",
+                         "not computed; set stiffness = \"computed\" in [mesh.pinion_wheel] to compute it",
                          shape == StiffnessShape::computed};
   if (mesh.computed) {
     const auto mean = mesh.computed->mean_stiffness();

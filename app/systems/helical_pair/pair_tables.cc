@@ -7,7 +7,7 @@ namespace {
 
 Table pair_stage_table() {
   Declarations stage("stage", "", &Scene::stage);
-  declare_centre_distance(stage).absent("that without backlash, from the profile shifts");
+  declare_centre_distance(stage).absent("the distance without backlash, from the profile shifts");
   stage
       .key("pinion_torque_Nm", &StageInput::pinion_torque,
            "Torque that drives the pinion. Negative: the back flanks carry it.")
@@ -94,12 +94,11 @@ std::vector<Choice<std::string>> reading_choices() {
 }
 
 Table manufacturing_error_table() {
-  Declarations t(
-      "manufacturing_error",
-      "Tangential composite deviations of both gears as random amplitudes: X₁ = (F′ − f′)/2 once per turn and X₂ = "
-      "f′/2 once per tooth, Rayleigh, under a uniform phase. One reading of their quantile becomes the error at mesh "
-      "frequency.",
-      &Scene::manufacturing_error);
+  Declarations t("manufacturing_error",
+                 "Tangential composite deviations of both gears as random amplitudes with Rayleigh distribution and "
+                 "uniform phase: X₁ = (F′ − f′)/2 once per turn and X₂ = f′/2 once per tooth. One reading of their "
+                 "quantile becomes the error at mesh frequency.",
+                 &Scene::manufacturing_error);
   t.on_request();
   const auto deviation = [&](const char* name, double ManufacturingErrorInput::*member, const char* meaning) {
     t.key(name, member, meaning).required().from(0, 1e4);
@@ -110,30 +109,30 @@ Table manufacturing_error_table() {
             "Tooth-to-tooth tangential composite deviation f′ᵢ of the pinion.");
   deviation("wheel_total_um", &ManufacturingErrorInput::wheel_total, "F′ᵢ of the wheel.");
   deviation("wheel_tooth_to_tooth_um", &ManufacturingErrorInput::wheel_tooth_to_tooth, "f′ᵢ of the wheel.");
-  t.key("samples", &ManufacturingErrorInput::samples, "Draws of each gear.")
+  t.key("samples", &ManufacturingErrorInput::samples, "Number of draws for each gear.")
       .fallback(10000, "as in the paper")
       .from(100, 1e7);
   t.key("seed", &ManufacturingErrorInput::seed, "Other seeds give other draws.")
-      .fallback(1, "any number will do")
+      .fallback(1, "any number")
       .from(0, 2147483647);
-  t.key("probability", &ManufacturingErrorInput::probability, "Of the quantiles.")
+  t.key("probability", &ManufacturingErrorInput::probability, "Probability of the quantiles.")
       .fallback(0.95, "as in the paper")
       .from(0.01, 0.9999);
-  t.key("confidence", &ManufacturingErrorInput::confidence, "Of the intervals around the sample quantiles.")
+  t.key("confidence", &ManufacturingErrorInput::confidence, "Confidence of the intervals around the sample quantiles.")
       .fallback(0.95, "usual")
       .from(0.5, 0.9999);
   t.choice("divisor", &ManufacturingErrorInput::divisor,
            {{"printed", ErrorDivisor::printed}, {"exact", ErrorDivisor::exact}},
            "Scale of the Rayleigh law = deviation / divisor: 6.8 as printed, or 2√(−2 ln 0.003) = 6.817.")
-      .fallback("printed", "the source's rounding");
+      .fallback("printed", "as rounded in the source");
   t.choice("reading", &ManufacturingErrorInput::reading, reading_choices(),
-           "Which quantity's quantile becomes the error at mesh frequency: pinion_ or wheel_ with error (one-sided), "
-           "error_magnitude, x1, x2, envelope √(X₁² + X₂²) or crest X₁ + X₂; sum or sum_magnitude of both gears; "
-           "none: the law is reported, the error is that of errors.mesh_error_um.")
-      .fallback("pinion_envelope", "the amplitude of one gear, both terms");
+           "Quantity whose quantile becomes the error at mesh frequency. pinion_ or wheel_ with error (one-sided), "
+           "error_magnitude, x1, x2, envelope √(X₁² + X₂²) or crest X₁ + X₂. sum or sum_magnitude of both gears. none: "
+           "the law is only reported, and the error is that of errors.mesh_error_um.")
+      .fallback("pinion_envelope", "the amplitude of one gear with both terms");
   t.choice("amount", &ManufacturingErrorInput::amount, {{"sample", ErrorAmount::sample}, {"exact", ErrorAmount::exact}},
            "Quantile of the draws, or of the law itself.")
-      .fallback("sample", "as in the paper; its confidence interval stands beside it");
+      .fallback("sample", "as in the paper; the report states its confidence interval");
   return t.done();
 }
 
@@ -141,7 +140,7 @@ Table transmission_error_table() {
   Declarations shares("transmission_error",
                       "Causes of the transmission error: all causes, the errors alone and the stiffness alone.",
                       &Scene::transmission_error);
-  shares.on_request().only_if(given("[dynamics]"), "the shares are those of the lumped model");
+  shares.on_request().only_if(given("[dynamics]"), "the lumped model computes the shares");
   shares
       .key("pinion_torques_Nm", &TransmissionErrorInput::pinion_torques,
            "Torques of the pinion at which the causes are separated; the speed is that of the stage.")

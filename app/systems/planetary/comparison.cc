@@ -59,9 +59,8 @@ std::string sharing_reason(const RunResult& result) {
   }
   const auto range = totals.range(0);
   return fmt::format(
-      ". The ring mesh brings only a part of the compliance of a planet's path ({}); the path stiffnesses of the rings "
-      "lie {:.1f} % apart, "
-      "planet bearings and error phases, which are not published, weigh more",
+      ". The ring mesh is only a part of the compliance of a planet's path ({}). The path stiffnesses of the rings "
+      "differ by {:.1f} %. Planet bearings and error phases have a larger effect and are not published",
       parts, 100 * (range.high / range.low - 1));
 }
 
@@ -160,14 +159,15 @@ std::vector<Verdict> judge_pin(const Reference::AtPin& statement, const RunResul
     return verdict;
   };
   const auto force = reading(
-      "ring mesh stiffness with a pin in the path of the force against between pins", effect->force_at_pin,
-      fmt::format("with a pin {:+.1f} teeth from the contact, where a pin carries most", effect->loaded_pin_teeth));
+      "ring mesh stiffness with a pin in the path of the force, compared with between pins", effect->force_at_pin,
+      fmt::format("with a pin {:+.1f} teeth from the contact, where the force on a pin is largest",
+                  effect->loaded_pin_teeth));
   auto contact = reading(
-      "ring mesh stiffness with the contact at a pin against between pins", effect->contact_at_pin,
+      "ring mesh stiffness with the contact at a pin, compared with between pins", effect->contact_at_pin,
       fmt::format("at a pin; stiffest with the contact {:+.1f} teeth from the nearest pin", effect->stiffest_teeth));
   if (contact.outcome != Verdict::Outcome::agrees)
     contact.why = fmt::format(
-        "the force does not reach the housing behind the contact: the pin that carries most stands {:+.1f} teeth from "
+        "the force does not reach the housing directly behind the contact: the most loaded pin is {:+.1f} teeth from "
         "it",
         effect->loaded_pin_teeth);
   return {force, contact};

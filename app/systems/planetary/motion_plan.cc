@@ -21,7 +21,7 @@ Decision coupling_decision(const Scene& scene, const std::vector<MeshModel>& mes
   if (std::any_of(meshes.begin(), meshes.end(), [&](const MeshModel& m) { return may_be_coupled(scene, m); }))
     return {what, "solved", "through the ring; applied beyond a tenth of the wanted accuracy"};
   return {what, "left out",
-          scene.dynamics->rim_coupling == RimCoupling::none ? asked_for : "no ring's elasticity is solved by elements"};
+          scene.dynamics->rim_coupling == RimCoupling::none ? asked_for : "no ring is solved with finite elements"};
 }
 
 Decision stiffness_decision(const DynamicsInput& input, const std::vector<MeshModel>& meshes) {
@@ -52,7 +52,7 @@ std::vector<Decision> motion_decisions(const Scene& scene, const std::vector<Mes
   add("samples per mesh cycle", std::to_string(choice.samples_per_cycle), choice.samples_reason);
   const bool automatic = input.integrator == dynamics::Integrator::automatic;
   add("integrator", integrator_names[static_cast<int>(input.integrator)],
-      automatic ? "where time is integrated, the cheaper one for the stiffness ratio and damping found" : asked_for);
+      automatic ? "for time integration, the cheaper one for the computed stiffness ratio and damping" : asked_for);
   if (input.steps_per_cycle)
     add("steps per mesh cycle", std::to_string(*input.steps_per_cycle), asked_for);
   else

@@ -160,7 +160,7 @@ class PlanetaryChecker : KeyChecks {
     for (const auto& ring : scene_.rings)
       if (ring_structure(ring).single_supports() == 1)
         problem("dynamics.rim_coupling",
-                fmt::format("is not modelled for the ring '{}' on a single pin, which leans on its housing: use "
+                fmt::format("is not modelled for the ring '{}' on a single pin, which rests in its housing: use "
                             "\"none\" or \"automatic\", or give the ring more pins",
                             ring.name));
   }

@@ -38,7 +38,7 @@ void check_ring_supports(const Scene& scene, const GearGeometry& geometry, std::
   if (modules <= largest_deflection) return;
   throw InputError(
       fmt::format("ring '{}': turns on its {} by {} mm = {:.2g} modules under the nominal load; {}: make them stiffer, "
-                  "more, or of less clearance",
+                  "use more of them, or reduce their clearance",
                   scene.rings.at(ring).name, model.problem->structure.words().supports, to_text(turn / units::mm, 3),
                   modules, small_displacements_rule()));
 }

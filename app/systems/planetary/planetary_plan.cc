@@ -88,10 +88,10 @@ std::vector<DofPlan> dofs(const Scene& scene) {
 void add_single_pin(std::vector<std::string>& list, const RingInput& ring) {
   const auto structure = ring_structure(ring);
   if (structure.single_supports() != 1) return;
-  list.push_back(fmt::format(
-      "Ring '{}' has a single {}, which cannot hold it in equilibrium: its rim rests in the bore of the housing, with "
-      "a radial play of {} µm (housing_clearance_um).",
-      ring.name, structure.words().support, to_text(*ring.housing_clearance / units::um)));
+  list.push_back(
+      fmt::format("Ring '{}' has a single {}, which cannot hold it in equilibrium. Its rim rests in the bore of the "
+                  "housing with a radial play of {} µm (housing_clearance_um).",
+                  ring.name, structure.words().support, to_text(*ring.housing_clearance / units::um)));
 }
 
 std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometry, bool computed,
@@ -104,14 +104,13 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
                     "distance is {} µm in the sun mesh and {} µm in the ring mesh.",
                     to_text(geometry.sun_mesh().normal_backlash() / units::um, 2),
                     to_text(ring_mesh.normal_backlash() / units::um, 2)));
-    list.emplace_back("Friction is left out; the contact is hard and the sliding small.");
+    list.emplace_back("Friction is neglected. The contact is hard (no penetration), and sliding is small.");
     if (sun_mesh_computed) list.emplace_back("The sun mesh is solved once and shared by all rings.");
     const bool misaligned = scene.errors.sun_planet_misalignment != 0 || scene.errors.ring_planet_misalignment != 0;
-    list.emplace_back(misaligned
-                          ? "Eccentricities and position errors enter the dynamics; of all errors only the "
-                            "misalignments enter the contact solve."
-                          : "The planet errors of the scene enter the dynamics; the contact solve itself is free of "
-                            "errors.");
+    list.emplace_back(
+        misaligned ? "Eccentricities and position errors enter the dynamics; only the misalignments enter the contact "
+                     "solution."
+                   : "The planet errors of the scene enter the dynamics; the contact solution is without errors.");
     for (const auto& ring : scene.rings) add_single_pin(list, ring);
   }
   if (!scene.dynamics) {
@@ -120,8 +119,8 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
   }
   if (scene.stage.helix_angle != 0)
     list.emplace_back(
-        "The lumped model is plane: it has the transverse forces of helical teeth, their axial forces and tilting "
-        "moments are left out.");
+        "The lumped model is plane. It contains the transverse forces of helical teeth; their axial forces and tilting "
+        "moments are neglected.");
   return list;
 }
 

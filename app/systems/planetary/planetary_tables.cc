@@ -16,9 +16,8 @@ Table planetary_stage_table() {
   declare_planets(stage);
   stage
       .key("planet_angles_deg", &StageInput::planet_angles,
-           "Angular positions of the planets, one per planet, counter-clockwise from the first, which stands at 0; two "
-           "decimals are enough. A planet fits between the teeth of sun and ring every 360° / (teeth of the sun + "
-           "teeth of the ring).")
+           "Angular positions of the planets, counter-clockwise from the first planet at 0. Two decimals are enough. A "
+           "planet fits between the teeth of sun and ring every 360° / (teeth of the sun + teeth of the ring).")
       .from(0, 360)
       .absent("equally spaced");
   declare_centre_distance(stage).required();
@@ -95,19 +94,19 @@ Table planetary_errors_table() {
     errors
         .key(std::string(mesh) + "_planet_misalignment_um", member,
              std::string("Misalignment of the ") + mesh +
-                 " mesh over the face width, normal to the flanks; positive opens it towards +z. The mesh becomes "
-                 "solid.")
+                 " mesh over the face width, normal to the flanks; positive opens it towards +z. The mesh then needs "
+                 "the solid model.")
         .fallback(0.0, "no error")
         .from(-1000, 1000);
   return errors.done();
 }
 
 Table supports_table() {
-  Declarations supports(
-      "supports",
-      "Stiffness of the bearings; 0 is none (planets need one). Absent or inf means rigid, and the degree of freedom "
-      "is dropped; so does a stiffness of a thousand meshes over the wanted accuracy.",
-      &Scene::supports);
+  Declarations supports("supports",
+                        "Stiffness of the bearings; 0 means no bearing (planets need one). If it is absent or inf, the "
+                        "bearing is rigid and the degree of freedom is dropped. A stiffness above a thousand mesh "
+                        "stiffnesses over the wanted accuracy also counts as rigid.",
+                        &Scene::supports);
   supports.optional();
   const auto support = [&](const char* name, double SupportInput::*member, double value, const char* why,
                            const char* meaning) {
@@ -118,23 +117,23 @@ Table supports_table() {
         .infinite()
         .word("rigid", rigid);
   };
-  supports.key("sun_N_per_m", &SupportInput::sun, "Support of the sun's axis, any direction; floating: none.")
+  supports.key("sun_N_per_m", &SupportInput::sun, "Support of the sun's axis in any direction; floating: no support.")
       .from(0, 1e15)
       .infinite()
       .word("rigid", rigid)
       .word("floating", 0)
       .absent("no lumped model, or a single planet: rigid")
       .required_if(given("[dynamics]") && !is("stage.planets", {"1"}),
-                   "nothing changes load sharing more; a rigid sun shares nothing out");
-  bearing("ring_N_per_m", &SupportInput::ring, "Support of the ring's axis, any direction.");
-  bearing("carrier_N_per_m", &SupportInput::carrier, "Support of the carrier's axis, any direction.");
+                   "it has the largest effect on load sharing; a rigid sun does not equalise the planet loads");
+  bearing("ring_N_per_m", &SupportInput::ring, "Support of the ring's axis in any direction.");
+  bearing("carrier_N_per_m", &SupportInput::carrier, "Support of the carrier's axis in any direction.");
   bearing("planet_N_per_m", &SupportInput::planet, "Bearing of each planet on the carrier, radial and tangential.")
       .above(0, 1e15);
   bearing("ring_torsional_N_per_m", &SupportInput::ring_torsional,
           "Torsional support of the ring, in u = base radius × angle.");
-  support("sun_torsional_N_per_m", &SupportInput::sun_torsional, 0, "free: the sun carries the power",
+  support("sun_torsional_N_per_m", &SupportInput::sun_torsional, 0, "free: the sun transmits the power",
           "Torsional support of the sun, in u = base radius × angle.");
-  support("carrier_torsional_N_per_m", &SupportInput::carrier_torsional, 0, "free: the carrier carries the power",
+  support("carrier_torsional_N_per_m", &SupportInput::carrier_torsional, 0, "free: the carrier transmits the power",
           "Torsional support of the carrier, in u = centre distance × angle.");
   return supports.done();
 }
@@ -200,16 +199,16 @@ Table rim_coupling_key() {
                {"none", RimCoupling::none},
                {"static", RimCoupling::statical},
                {"elastic", RimCoupling::elastic}},
-              "How the meshes of one ring act on each other through it. none: not at all; static: by its compliance at "
-              "every ring position; elastic: with the inertia of its elastic modes besides, by time integration; "
-              "automatic: static where the coupling exceeds a tenth of the wanted accuracy, else none.")
-      .fallback("automatic", "only what changes the answer is modelled");
+              "Coupling of the meshes of one ring through the ring. none: no coupling. static: by the compliance of "
+              "the ring at every position. elastic: also with the inertia of its elastic modes, by time integration. "
+              "automatic: static if the coupling exceeds a tenth of the wanted accuracy, else none.")
+      .fallback("automatic", "only a coupling that changes the results is modelled");
   return lumped.done();
 }
 
 Table optimised_ring_key() {
   Declarations optimise("optimise", "", &Scene::optimise);
-  optimise.key("ring", &OptimiseInput::ring, "The ring whose results count.").absent("the first");
+  optimise.key("ring", &OptimiseInput::ring, "The ring whose results are optimised.").absent("the first");
   return optimise.done();
 }
 

@@ -75,8 +75,8 @@ Csv teeth_table(const fem::SolvedRingCoupling& solved) {
   const auto& compliance = solved.teeth_compliance;
   Csv csv;
   csv.header = {{"what",
-                 "closing lost at a tooth's flank along the line of action per newton on another's, ring held "
-                 "by its supports, both ways; its inverse is the stiffness matrix"},
+                 "deflection at the flank of a tooth along the line of action per newton on the flank of another; the "
+                 "supports hold the ring in both directions; the inverse is the stiffness matrix"},
                 {"error_m_per_N", fmt::format("{:.3g}", solved.teeth_compliance_error)}};
   csv.columns = {"tooth"};
   for (Eigen::Index j = 0; j < compliance.cols(); ++j)
@@ -131,8 +131,8 @@ CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved)
   const double limit = part_of_accuracy * scene.accuracy;
   const bool small = share <= limit;
   return {small ? RimCoupling::none : RimCoupling::statical,
-          fmt::format("another planet's load moves a mesh by at most {} of what its own load moves the planet's path "
-                      "(mesh and bearing): {} than {}, a tenth of the wanted accuracy",
+          fmt::format("under the load of another planet a mesh deflects by at most {} of the deflection of the "
+                      "planet's path (mesh and bearing) under its own load: {} than {}, a tenth of the wanted accuracy",
                       percent(share), small ? "less" : "more", percent(limit))};
 }
 

@@ -103,7 +103,7 @@ void declare_pins(const StructureKeys& keys) {
   keys.optional("pin_tangential_stiffness_N_per_m", &RingInput::pin_tangential_stiffness,
                 "Tangential stiffness of one pin or bolt.")
       .above(0, 1e14)
-      .absent("as the radial one");
+      .absent("equal to the radial stiffness");
   keys.optional("pin_free_span_mm", &RingInput::pin_free_span,
                 "Length of pin between ring and housing, where it bends and shears.")
       .from(0, 1000)
@@ -111,7 +111,7 @@ void declare_pins(const StructureKeys& keys) {
   keys.optional("housing_clearance_um", &RingInput::housing_clearance,
                 "Radial play of the rim in a rigid housing bore, on which it can rest.")
       .from(0, 1e4)
-      .absent("no bore; 0 with a single pin, which cannot hold the ring alone");
+      .absent("no bore; 0 with a single pin, because one pin cannot hold the ring alone");
 }
 
 void check_pins(RingInput& ring, Scene& scene, std::vector<Problem>& problems) {

@@ -55,7 +55,7 @@ void declare_splines(Declarations<RingInput>& ring) {
   const StructureKeys keys{ring, is("structure", {"splined"})};
   keys.needed("splines", &RingInput::splines, "Number of spline teeth around the outside.").from(3, 2000);
   keys.optional("first_spline_angle_deg", &RingInput::first_spline_angle,
-                "Centre of the first spline tooth, from the centre of tooth 0.")
+                "Angular position of the first spline tooth, from the centre of tooth 0.")
       .from(-360, 360)
       .fallback(0.0, "behind tooth 0");
   keys.optional("spline_flank_angle_deg", &RingInput::spline_flank_angle,
@@ -73,7 +73,7 @@ void declare_splines(Declarations<RingInput>& ring) {
 void declare_clamp(Declarations<RingInput>& ring) {
   const StructureKeys keys{ring, is("structure", {"clamped"})};
   keys.needed("clamp_inner_diameter_mm", &RingInput::clamp_inner_diameter,
-              "Both end faces are fixed between this diameter and the outside; the rest of them is free.")
+              "Both end faces are fixed between this diameter and the outside; the rest is free.")
       .above(0, 1e5);
   keys.needed("bolts", &RingInput::bolts, "Number of equally spaced bolts through the rim.").from(3, 2000);
   keys.needed("bolt_circle_diameter_mm", &RingInput::bolt_circle_diameter, "Diameter of the bolt circle.")
@@ -194,19 +194,18 @@ fem::Clamped clamped(const RingInput& ring) {
 }  // namespace
 
 void declare_structure(Declarations<RingInput>& ring) {
-  ring.choice(
-          "structure", &RingInput::structure,
-          {{"traditional", Structure::traditional},
-           {"thin_walled", Structure::thin_walled},
-           {"pinned", Structure::pinned},
-           {"bolted", Structure::bolted},
-           {"splined", Structure::splined},
-           {"clamped", Structure::clamped}},
-          "traditional: outer surface fixed, or a bolted flange if one is declared; thin_walled: cantilevered from "
-          "a sleeve whose end face is fixed, outside free, with a hoop if one is declared; pinned: pins around the "
-          "outside that carry outward pressure only; bolted: bolts at the same positions, fixed both ways; "
-          "splined: spline teeth around the outside in a rigid mate; clamped: both end faces fixed by a bolt circle "
-          "through the rim, outside free.")
+  ring.choice("structure", &RingInput::structure,
+              {{"traditional", Structure::traditional},
+               {"thin_walled", Structure::thin_walled},
+               {"pinned", Structure::pinned},
+               {"bolted", Structure::bolted},
+               {"splined", Structure::splined},
+               {"clamped", Structure::clamped}},
+              "traditional: the outer surface is fixed, or a bolted flange if one is declared. thin_walled: "
+              "cantilevered from a sleeve with a fixed end face; the outside is free; with a hoop if one is declared. "
+              "pinned: pins around the outside that carry outward pressure only. bolted: bolts at the same positions "
+              "that hold in both directions. splined: spline teeth around the outside in a rigid mate. clamped: both "
+              "end faces are fixed by a bolt circle through the rim; the outside is free.")
       .required();
 }
 
@@ -237,19 +236,17 @@ void check_structure_in_rim(const Scene& scene, const RingInput& input, const Ri
   };
   const double root = ring.set.ring().root_radius(), rim = ring.outside_radius - root, least = least_rim(scene);
   if (input.sleeve_thickness && *input.sleeve_thickness > (rim - least) * (1 + diameter_rounding))
-    refuse(
-        "sleeve_thickness_mm", *input.sleeve_thickness,
-        fmt::format("must be in range: 0 < value <= {}: the sleeve lies in the rim, which is {} thick, and keeps {} = "
-                    "{} modules from the root",
-                    length_mm(rim - least), length_mm(rim), length_mm(least), geometry::min_circle_distance));
+    refuse("sleeve_thickness_mm", *input.sleeve_thickness,
+           fmt::format("must be in range: 0 < value <= {}: the sleeve lies in the rim, which is {} thick, and must be "
+                       "{} = {} modules away from the root",
+                       length_mm(rim - least), length_mm(rim), length_mm(least), geometry::min_circle_distance));
   const double smallest = 2 * (root + least), largest = 2 * (ring.outside_radius - least);
   if (input.clamp_inner_diameter && (*input.clamp_inner_diameter < smallest * (1 - diameter_rounding) ||
                                      *input.clamp_inner_diameter > largest * (1 + diameter_rounding)))
-    refuse(
-        "clamp_inner_diameter_mm", *input.clamp_inner_diameter,
-        fmt::format("must be in range: {} <= value <= {}: the clamped end faces lie in the rim, and their edge keeps "
-                    "{} = {} modules from root and outside",
-                    length_mm(smallest), length_mm(largest), length_mm(least), geometry::min_circle_distance));
+    refuse("clamp_inner_diameter_mm", *input.clamp_inner_diameter,
+           fmt::format("must be in range: {} <= value <= {}: the clamped end faces lie in the rim, and their edge must "
+                       "be {} = {} modules away from root and outside",
+                       length_mm(smallest), length_mm(largest), length_mm(least), geometry::min_circle_distance));
 }
 
 fem::RingStructure ring_structure(const RingInput& ring) {

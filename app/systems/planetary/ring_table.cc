@@ -7,7 +7,7 @@ namespace annulus::app {
 namespace {
 
 void declare_ring_body(Declarations<RingInput>& ring) {
-  ring.key("name", &RingInput::name, "Name, also of the folder of its results.").required();
+  ring.key("name", &RingInput::name, "Name of the ring and of the folder of its results.").required();
   declare_structure(ring);
   declare_teeth(ring, Flanks::internal);
   declare_mass(ring);
@@ -16,7 +16,7 @@ void declare_ring_body(Declarations<RingInput>& ring) {
   ring.key("outside_diameter_mm", &RingInput::outside_diameter, "Outside diameter.")
       .above(0, 1e5)
       .absent("root diameter plus twice rim_thickness_mm");
-  ring.key("rim_thickness_mm", &RingInput::rim_thickness, "From the root circle to the outside.")
+  ring.key("rim_thickness_mm", &RingInput::rim_thickness, "Thickness from the root circle to the outside.")
       .above(0, 1e4)
       .instead_of({"outside_diameter_mm"})
       .absent("follows from outside_diameter_mm");

@@ -125,8 +125,8 @@ void check_power(const dynamics::PlanetaryStage& stage, const dynamics::DynamicR
   carried /= stage.planets() * stage.mean_mesh_force();
   if (std::abs(carried - 1) <= 10 * steady_tolerance) return;
   throw SolverError(
-      fmt::format("the teeth carry only {:.3g} of the sun's torque: it is too small to close the gaps that the errors "
-                  "open within the motion that was solved; raise stage.power_kW, or reduce [errors]",
+      fmt::format("the teeth carry only {:.3g} of the sun's torque. The torque is too small to close the gaps from the "
+                  "errors in the computed motion; raise stage.power_kW, or reduce [errors]",
                   carried));
 }
 

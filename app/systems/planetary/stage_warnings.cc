@@ -23,10 +23,10 @@ std::string back_flanks(const char* mesh, const std::vector<dynamics::BranchResu
   }
   if (planets.empty()) return "";
   return fmt::format(
-      "back flanks carry load in the {} of planet {}, for up to {:.3g} % of the time. Where the stiffness comes from a "
-      "table that repeats with every mesh cycle, theirs is its mirror image. Otherwise it is that of the driving "
-      "flanks at the same phase, of which only the mean is right. A larger dynamics.half_backlash_um or smaller errors "
-      "avoid this",
+      "back flanks carry load in the {} of planet {}, for up to {:.3g} % of the time. If the stiffness is from a table "
+      "that repeats in every mesh cycle, the back flanks have its mirror image. Otherwise they have the stiffness of "
+      "the driving flanks at the same phase, of which only the mean is correct. A larger dynamics.half_backlash_um or "
+      "smaller errors avoid this",
       mesh, fmt::join(planets, ", "), 100 * longest);
 }
 
@@ -51,7 +51,7 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
     if (const auto keys = rigid_unasked(scene); !keys.empty())
       list.push_back({"supports_left_out", Severity::warning,
                       fmt::format("rigid, because the scene does not mention {}. Soft planet bearings, carriers and "
-                                  "rings even out what the planets carry; give a stiffness, or \"rigid\"",
+                                  "rings equalise the planet loads; give a stiffness, or \"rigid\"",
                                   fmt::join(keys, ", "))});
   if (scene.tolerances && by_default(scene, "tolerances.distribution"))
     list.push_back({"distribution_assumed", Severity::note,

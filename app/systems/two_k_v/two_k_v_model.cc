@@ -113,10 +113,10 @@ MeshModel arc_pins_model(const Scene& scene) {
   if (is_computed(scene.arc_pins)) {
     model.fidelity = "line_contact";
     model.reason = "line contact of pins and concave arcs, shared by all pins on the loaded side";
-    model.repeats = "equal teeth on equal pins: one mesh cycle tells all";
+    model.repeats = "equal teeth on equal pins: one mesh cycle is enough";
   } else {
     model.fidelity = "given";
-    model.reason = "the scene gives the stiffness (mesh.arc_pins)";
+    model.reason = "the scene prescribes the stiffness (mesh.arc_pins)";
     model.repeats = "as given";
   }
   return model;

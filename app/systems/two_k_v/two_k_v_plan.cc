@@ -39,7 +39,7 @@ std::vector<Quantity> two_k_v_quantities(const Scene& scene, const geometry::Gea
   };
   if (const auto arc = arc_tooth_mesh(scene))
     list.push_back(quantity("shortening", arc->eccentricity * arc->pins / arc->pin_circle_radius,
-                            "eccentricity × pins / radius of the pin circle: where the pitch point lies"));
+                            "eccentricity × pins / radius of the pin circle: relative radius of the pitch point"));
   return list;
 }
 
@@ -72,8 +72,8 @@ std::vector<std::string> stiff_parts(const Scene& scene) {
   const auto add = [&](const char* key, double given, double taken, const char* unit) {
     if (taken < given)
       list.push_back(
-          fmt::format("{} = {} {unit} counts as some {} {unit}: it then gives way by less than a "
-                      "thousandth of the accuracy beside its neighbours, and more changes nothing.",
+          fmt::format("{} = {} {unit} counts as some {} {unit}: it then deflects by less than a thousandth of the "
+                      "accuracy compared with its neighbours, and a larger value changes nothing.",
                       key, to_text(given), to_text(taken, 2), fmt::arg("unit", unit)));
   };
   add("input.shaft_Nm_per_rad", *scene.input.shaft, stage.input_shaft, "N m/rad");
@@ -86,8 +86,8 @@ std::vector<std::string> stiff_parts(const Scene& scene) {
 std::vector<std::string> two_k_v_remarks(const Scene& scene, bool computed) {
   std::vector<std::string> list;
   if (computed) {
-    list.emplace_back("Only the driving flanks are solved; friction is left out.");
-    list.emplace_back("All sun meshes are equal and solved once; each meets its own phase of the table.");
+    list.emplace_back("Only the driving flanks are solved; friction is neglected.");
+    list.emplace_back("All sun meshes are equal and solved once; each has its own phase in the table.");
   }
   if (compared_scene(scene))
     list.emplace_back("Prescribed stiffness is also computed, and there are results with both.");
@@ -98,7 +98,7 @@ std::vector<std::string> two_k_v_remarks(const Scene& scene, bool computed) {
   list.emplace_back(
       "The directions of the eccentrics turn with the crank: stiffness and modes change over its turn even where the "
       "mesh stiffness is constant.");
-  list.emplace_back("Centrifugal and gyroscopic terms are left out, as in the paper; the crank turns slowly.");
+  list.emplace_back("Centrifugal and gyroscopic terms are neglected, as in the paper; the crank turns slowly.");
   if (scene.dynamics->half_backlash == 0)
     list.emplace_back("Without backlash no mesh loses contact: its force may take either sign.");
   for (auto& remark : stiff_parts(scene)) list.push_back(std::move(remark));

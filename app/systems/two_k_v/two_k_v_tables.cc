@@ -39,8 +39,8 @@ Table turning_gear_table(const char* path, const char* meaning, HubGearInput Sce
 
 Table crank_table() {
   Declarations crank("crank",
-                     "The crank shafts, one per planet: bearings of the output carrier hold them, their "
-                     "eccentrics carry the arc gears. planet.mass_kg is that of a planet with its shaft.",
+                     "The crank shafts, one per planet. They turn in bearings of the output carrier; their eccentrics "
+                     "carry the arc gears. planet.mass_kg is the mass of a planet with its shaft.",
                      &Scene::crank);
   declare_inertia(crank, "Moment of inertia of one shaft without its planet.").required_if(with_dynamics());
   declare_stiffness(crank, "shaft_Nm_per_rad", &CrankInput::shaft,
@@ -50,15 +50,15 @@ Table crank_table() {
   crank
       .key("angle_deg", &CrankInput::angle,
            "Direction of the first arc gear's eccentric at time 0, from the line of centres to the first crank.")
-      .fallback(0.0, "any start will do: the cranks turn through all angles")
+      .fallback(0.0, "any angle: the cranks turn through all angles")
       .from(-360, 360);
   return crank.done();
 }
 
 Table arc_gear_table() {
   Declarations arc("arc_gear",
-                   "The gears with arc teeth on the eccentrics, with one tooth less than the housing has "
-                   "pins. Diameters, arc radius and width serve the contact formulas.",
+                   "The gears with arc teeth on the eccentrics. They have one tooth less than the housing has pins. "
+                   "The contact formulas need the diameters, the arc radius and the width.",
                    &Scene::arc_gear);
   const auto computed_arc = computed_or_compared("mesh.arc_pins");
   arc.key("count", &ArcGearInput::count, "Number of arc gears, equally spaced around the eccentrics.")
@@ -73,19 +73,19 @@ Table arc_gear_table() {
         .required_if(computed_arc, "or prescribe the stiffness of the mesh in [mesh.arc_pins]");
   };
   length("pin_circle_diameter_mm", &ArcGearInput::pin_circle_diameter, 1e4,
-         "Diameter of the circle of the pins' centres.");
+         "Diameter of the circle through the centres of the pins.");
   length("pin_diameter_mm", &ArcGearInput::pin_diameter, 1e3, "Diameter of a pin.");
   length("arc_radius_mm", &ArcGearInput::arc_radius, 1e4,
          "Radius of the concave arc of a tooth, on which a pin rolls.");
   length("width_mm", &ArcGearInput::width, 5000, "Face width of one arc gear.");
-  arc.key("clearance_um", &ArcGearInput::clearance, "Material taken off the flanks along their normal, all around.")
+  arc.key("clearance_um", &ArcGearInput::clearance, "Material removed from all flanks along their normal.")
       .only_if(computed_arc, "a prescribed stiffness has half_backlash_um")
-      .fallback(0.0, "all pins on the loaded side touch at once, which the paper's formulas assume")
+      .fallback(0.0, "all pins on the loaded side touch at once, as the formulas of the paper assume")
       .from(0, 1000);
   arc.choice("approach", &ArcGearInput::approach,
              {{"handbook", dynamics::LineApproach::handbook}, {"johnson", dynamics::LineApproach::johnson}},
-             "Approach of pin and arc under load. handbook: Roark, 2/3 + ln(...), as the gear handbooks; johnson: "
-             "Hertz pressure, depth to the centres of curvature.")
+             "Formula for the approach of pin and arc under load. handbook: Roark, 2/3 + ln(...), as in gear "
+             "handbooks; johnson: Hertz pressure, with the depth to the centres of curvature.")
       .fallback("handbook", "the formula of the paper");
   declare_mass(arc, "Mass of one arc gear.");
   declare_inertia(arc, "Moment of inertia of one arc gear about its axis.").required_if(with_dynamics());
@@ -95,16 +95,16 @@ Table arc_gear_table() {
 }
 
 Table input_shaft_table() {
-  Declarations input("input", "The input shaft with what turns with it; it drives the sun.", &Scene::input);
+  Declarations input("input", "The input shaft with all parts that turn with it; it drives the sun.", &Scene::input);
   input.optional();
   declare_inertia(input, "Moment of inertia, motor included.")
-      .required_if(with_dynamics(), "with the ratio squared it sets the lowest frequency");
+      .required_if(with_dynamics(), "times the ratio squared it determines the lowest frequency");
   declare_stiffness(input, "shaft_Nm_per_rad", &InputShaftInput::shaft,
                     "Torsional stiffness of the shaft between input and sun.");
   input
       .key("support_Nm_per_rad", &InputShaftInput::support,
            "Torsional support of the input in the housing; inf: fixed.")
-      .fallback(0.0, "free: it carries the power")
+      .fallback(0.0, "free: it transmits the power")
       .from(0, 1e14)
       .infinite();
   return input.done();
@@ -114,10 +114,11 @@ Table output_table() {
   Declarations output("output", "The output: the carrier of the cranks, and its operating point.", &Scene::output);
   output.key("torque_Nm", &OutputInput::torque, "Load on the output.").required().above(0, 1e9);
   output.key("speed_rpm", &OutputInput::speed, "Speed of the output.").required().above(0, 1e6);
-  declare_inertia(output, "Moment of inertia of the carrier and what turns with it.").required_if(with_dynamics());
+  declare_inertia(output, "Moment of inertia of the carrier and all parts that turn with it.")
+      .required_if(with_dynamics());
   output
       .key("support_Nm_per_rad", &OutputInput::support,
-           "Torsional support of the output, which turns steadily: inf: bound to that motion, 0: free.")
+           "Torsional support of the output against its steady rotation; inf: fixed to this rotation, 0: free.")
       .required()
       .from(0, 1e14)
       .infinite();
@@ -127,7 +128,7 @@ Table output_table() {
 Table comparable_mesh_table(Declarations<MeshInput> keys) {
   auto mesh = declare_mesh(std::move(keys));
   mesh.choice("compare", &MeshInput::compare, {{"none", Compare::none}, {"computed", Compare::computed}},
-              "Also compute the stiffness of a mesh with a prescribed one: the report shows all results with both.")
+              "Whether a prescribed stiffness is also computed; the report then shows all results with both.")
       .only_if(!is("stiffness", {"computed"}), "this mesh is computed anyway")
       .fallback("none", "the prescribed stiffness alone");
   return mesh.done();

@@ -87,8 +87,8 @@ void HelicalPair::check() const {
     throw InputError(fmt::format("base helix angle {} rad must lie below 90 degrees", base_helix_angle));
   const double ratio = wheel.radius / pinion.radius, expected = static_cast<double>(wheel.teeth) / pinion.teeth;
   if (std::abs(ratio - expected) > 1e-3 * expected)
-    throw InputError(fmt::format("base radii give the ratio {:.6g}, the teeth {:.6g}: the pair contradicts itself",
-                                 ratio, expected));
+    throw InputError(fmt::format(
+        "base radii give the ratio {:.6g}, the teeth give {:.6g}: the inputs contradict each other", ratio, expected));
   dynamics::check(mesh, "mesh");
   check_wave(mesh_error, "error at mesh frequency");
   check_wave(pinion.error, "error of the pinion");

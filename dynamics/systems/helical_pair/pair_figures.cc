@@ -52,8 +52,8 @@ std::vector<FigureSpec> declared() {
   largest.plotted = largest.spread = true;
   largest.beside = "transmission_error_static_max_m";
   list.push_back(largest);
-  auto range =
-      length("transmission_error_peak_to_peak_m", "Transmission error, peak to peak", "range over time of u_1 + u_2");
+  auto range = length("transmission_error_peak_to_peak_m", "Transmission error, peak to peak",
+                      "peak-to-peak value over time of u_1 + u_2");
   range.headline = range.compared = range.cost_study = range.plotted = range.spread = range.ordering = true;
   range.beside = "transmission_error_static_peak_to_peak_m";
   list.push_back(range);
@@ -63,14 +63,14 @@ std::vector<FigureSpec> declared() {
   list.push_back(length("transmission_error_static_max_m", "Largest transmission error, quasi-static",
                         "largest over the positions of |u_1 + u_2|, without inertia and damping"));
   list.push_back(length("transmission_error_static_peak_to_peak_m", "Transmission error, peak to peak, quasi-static",
-                        "range over the positions of u_1 + u_2, without inertia and damping"));
+                        "peak-to-peak value over the positions of u_1 + u_2, without inertia and damping"));
   list.push_back(length("relative_motion_mean_m", "Relative motion with the bending of shafts and bearings, mean",
                         "mean over time of y_1 + u_1 - y_2 + u_2"));
   list.push_back(length("relative_motion_max_m", "Largest relative motion with the bending of shafts and bearings",
                         "largest over time of |y_1 + u_1 - y_2 + u_2|, the mean included"));
   list.push_back(length("relative_motion_peak_to_peak_m",
                         "Relative motion with the bending of shafts and bearings, peak to peak",
-                        "range over time of y_1 + u_1 - y_2 + u_2"));
+                        "peak-to-peak value over time of y_1 + u_1 - y_2 + u_2"));
   list.push_back(steady_figure());
   const auto frequencies = frequency_specs(
       pair_frequencies, "undamped natural frequencies above zero, rising, with the mean mesh stiffness");

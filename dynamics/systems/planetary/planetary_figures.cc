@@ -29,7 +29,7 @@ void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, co
                       .spread = true};
   };
   auto averaged = share("averaged", "averaged over a mesh cycle",
-                        "mesh cycles of N |F_n| / Σ|F|, the forces averaged over the mesh cycle first");
+                        "mesh cycles of N |F_n| / Σ|F|, with forces averaged over the mesh cycle");
   averaged.symbol = "K_γ";
   averaged.plotted = averaged.ordering = averaged.headline = true;
   averaged.beside = prefix + "load_sharing_quasi_static";
@@ -61,7 +61,7 @@ void declare_motion(std::vector<FigureSpec>& list, const std::string& prefix, co
                     .effort = FigureEffort::motion});
   };
   add("_rms_m", "rms, µm", "root mean square of ");
-  add("_peak_to_peak_m", "peak to peak, µm", "range of ");
+  add("_peak_to_peak_m", "peak to peak, µm", "peak-to-peak value of ");
 }
 
 std::vector<FigureSpec> declared() {
@@ -72,9 +72,9 @@ std::vector<FigureSpec> declared() {
   declare_motion(list, "sun", "Motion of the sun", "the distance of the sun's centre from its mean position");
   list[list.size() - 2].plotted = true;
   declare_motion(list, "sun_planet_deflection", "Deflection of the sun mesh",
-                 "the deflection of the sun mesh that moves most");
+                 "the deflection of the sun mesh with the largest motion");
   declare_motion(list, "ring_planet_deflection", "Deflection of the ring mesh",
-                 "the deflection of the ring mesh that moves most");
+                 "the deflection of the ring mesh with the largest motion");
   list.back().plotted = true;
   const auto frequencies = frequency_specs(
       planetary_frequencies,

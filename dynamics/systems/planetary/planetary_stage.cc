@@ -182,8 +182,8 @@ void PlanetaryStage::check() const {
     const double expected = 1 + static_cast<double>(ring_teeth) / sun_teeth;
     if (std::abs(ratio - expected) > 1e-3 * expected)
       throw InputError(
-          fmt::format("carrier radius, working angles and sun base radius give the torque ratio {:.6g}, "
-                      "the teeth {:.6g}: the stage contradicts itself",
+          fmt::format("carrier radius, working angles and sun base radius give the torque ratio {:.6g}, the teeth give "
+                      "{:.6g}: the inputs contradict each other",
                       ratio, expected));
   }
 }

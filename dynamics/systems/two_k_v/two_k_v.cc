@@ -33,7 +33,8 @@ void TwoKVStage::check() const {
       refuse(fmt::format("{} {:g} {} must be zero or positive and finite", name, value, unit));
   };
   const auto support = [&](double value, const char* name) {
-    if (!(value >= 0)) refuse(fmt::format("{} {:g} N m/rad must be zero or positive, or infinite (held)", name, value));
+    if (!(value >= 0))
+      refuse(fmt::format("{} {:g} N m/rad must be zero or positive, or infinite (fixed)", name, value));
   };
   const auto at_least = [&](int value, int least, const char* name) {
     if (value < least) refuse(fmt::format("{} {}; at least {} needed", value, name, least));

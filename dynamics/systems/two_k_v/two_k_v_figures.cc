@@ -36,7 +36,7 @@ void declare_statics(std::vector<FigureSpec>& list) {
                   .title = "Torsional stiffness from the output",
                   .unit = "kN m/rad",
                   .scale = 1e-3,
-                  .definition = "mean over a crank turn of torque over twist of the output, the input held",
+                  .definition = "mean over a crank turn of torque over twist of the output, with the input fixed",
                   .term = "torsional_stiffness",
                   .better = Better::larger,
                   .digits = 5,
@@ -56,8 +56,9 @@ void declare_statics(std::vector<FigureSpec>& list) {
   auto wind_up = angle("wind_up_rad", "Wind-up of the output under load", "output torque / mean torsional stiffness");
   wind_up.spread = true;
   list.push_back(wind_up);
-  auto lost = angle("lost_motion_rad", "Lost motion of the output",
-                    "turn of the output between -3 % and +3 % of its torque, the input held, backlash included");
+  auto lost =
+      angle("lost_motion_rad", "Lost motion of the output",
+            "rotation of the output between -3 % and +3 % of its torque, with the input fixed and with backlash");
   lost.spread = lost.headline = true;
   list.push_back(lost);
 }
@@ -65,14 +66,15 @@ void declare_statics(std::vector<FigureSpec>& list) {
 void declare_motion(std::vector<FigureSpec>& list) {
   list.push_back(steady_figure());
   auto error = angle("output_error_peak_to_peak_rad", "Error of the output",
-                     "range over the window of θ_output - θ_input / ratio");
+                     "peak-to-peak value over the window of θ_output - θ_input / ratio");
   error.axis = "peak to peak, arc seconds";
   error.effort = FigureEffort::motion;
   error.headline = error.compared = error.cost_study = error.plotted = error.ordering = true;
   error.beside = "output_error_quasi_static_rad";
   list.push_back(error);
-  auto still = angle("output_error_quasi_static_rad", "Error of the output, quasi-static",
-                     "range over the positions of θ_output - θ_input / ratio, without inertia and damping");
+  auto still =
+      angle("output_error_quasi_static_rad", "Error of the output, quasi-static",
+            "peak-to-peak value over the positions of θ_output - θ_input / ratio, without inertia and damping");
   still.axis = error.axis;
   still.effort = FigureEffort::motion;
   list.push_back(still);

@@ -126,7 +126,7 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options
         fmt::format("2K-V stage: a time response needs an output torque above zero, not {} N m", stage.output_torque));
   if (stage.input_support == rigid && stage.output_support == rigid)
     throw InputError(
-        fmt::format("2K-V stage: with input and output held the torque of {} N m does not act; leave one end free",
+        fmt::format("2K-V stage: with input and output fixed the torque of {} N m has no effect; leave one end free",
                     stage.output_torque));
   const LumpedSystem system = assemble(stage);
   const double arc_force = stage.mean_arc_mesh_force();

@@ -78,17 +78,18 @@ Pictures shares_pictures(const std::vector<const ShareRow*>& rows) {
                                             {1, [=](const ShareRow& r) { return r.shares.errors_alone.*part; }},
                                             {2, [=](const ShareRow& r) { return r.shares.stiffness_alone.*part; }}};
   };
-  return Pictures{{plot("Peak to peak, quasi-static", "peak to peak, µm", causes(still)),
-                   plot("Peak to peak, in motion", "peak to peak, µm", causes(moving)),
-                   plot("Largest value", "µm",
-                        {{0, [](const ShareRow& r) { return r.largest_dynamic; }},
-                         {1, [](const ShareRow& r) { return r.shares.errors_alone.quasi_static / 2; }},
-                         {5, [](const ShareRow& r) { return r.shares.load_deflection; }, true}})},
-                  {{"all causes", 0},
-                   {"errors alone (last picture: their amplitude)", 1},
-                   {"stiffness alone", 2},
-                   {"mean deflection under load", 5}},
-                  "Transmission error u₁ + u₂ at the base circles. Causes do not add up: they have phases."};
+  return Pictures{
+      {plot("Peak to peak, quasi-static", "peak to peak, µm", causes(still)),
+       plot("Peak to peak, in motion", "peak to peak, µm", causes(moving)),
+       plot("Largest value", "µm",
+            {{0, [](const ShareRow& r) { return r.largest_dynamic; }},
+             {1, [](const ShareRow& r) { return r.shares.errors_alone.quasi_static / 2; }},
+             {5, [](const ShareRow& r) { return r.shares.load_deflection; }, true}})},
+      {{"all causes", 0},
+       {"errors alone (last picture: their amplitude)", 1},
+       {"stiffness alone", 2},
+       {"mean deflection under load", 5}},
+      "Transmission error u₁ + u₂ at the base circles. The causes do not add up, because their phases differ."};
 }
 
 Pictures speeds_pictures(const std::vector<const SpeedRow*>& rows) {
@@ -103,7 +104,7 @@ Pictures speeds_pictures(const std::vector<const SpeedRow*>& rows) {
                    plot("Peak-to-peak mesh force", "largest – smallest, kN", &SpeedRow::Motion::force_range, 1e-3),
                    plot("Peak-to-peak transmission error", "µm", &SpeedRow::Motion::te_range, 1e6)},
                   {{"all causes", 0}, {"errors alone", 1}, {"stiffness alone", 2}},
-                  "The same causes over speed, at the torque of the stage."};
+                  "The same causes over the speed, at the torque of the stage."};
 }
 
 }  // namespace
@@ -129,7 +130,7 @@ Section pair_shares_section(const PairRunResult& result) {
     if (!row.failure.empty()) failed.items.emplace_back(torque_text(row.pinion_torque) + ": " + row.failure);
   for (const auto& row : result.speeds)
     if (!row.failure.empty()) failed.items.emplace_back(speed_text(row.pinion_speed) + ": " + row.failure);
-  if (!failed.items.empty()) section.blocks += paragraph("Left out, for no response was found:") + failed;
+  if (!failed.items.empty()) section.blocks += paragraph("Left out, because no response was found:") + failed;
   if (!rows.empty()) section.blocks += shares_pictures(rows) + shares_table(rows);
   if (!speeds.empty()) section.blocks += heading("Over speed") + speeds_pictures(speeds);
   return section;

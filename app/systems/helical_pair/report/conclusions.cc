@@ -52,20 +52,21 @@ void add_shares(std::vector<Conclusion>& list, const PairRunResult& result) {
                        um_text(value(first)), torque_text(first.pinion_torque), um_text(value(last)),
                        torque_text(last.pinion_torque));
   };
-  list.push_back({"Manufacturing error is the main cause of the transmission error: of its peak-to-peak value",
-                  numbers("quasi-static, errors alone", first.shares.errors_alone.quasi_static, "stiffness alone",
-                          [](const ShareRow& row) { return row.shares.stiffness_alone.quasi_static; }),
-                  "Holds " + range.text() +
-                      ". The errors do not depend on the load; the stiffness ripple moves the teeth in proportion to "
-                      "it.",
-                  range.everywhere()});
   list.push_back(
-      {"The same of its largest value; deflection under load matters little",
+      {"Manufacturing error is the main cause of the peak-to-peak transmission error",
+       numbers("quasi-static, errors alone", first.shares.errors_alone.quasi_static, "stiffness alone",
+               [](const ShareRow& row) { return row.shares.stiffness_alone.quasi_static; }),
+       "Holds " + range.text() +
+           ". The errors do not depend on the load. The motion by the stiffness ripple is proportional to the load.",
+       range.everywhere()});
+  list.push_back(
+      {"Manufacturing error is the main cause of the largest transmission error; deflection under load matters little",
        numbers("amplitude of the errors", first.shares.errors_alone.quasi_static / 2, "mean deflection",
                [](const ShareRow& row) { return row.shares.load_deflection; }),
        "Holds " + largest.text() +
-           (largest.everywhere() ? "."
-                                 : ". Elsewhere the largest transmission error is deflection of teeth and bearings."),
+           (largest.everywhere()
+                ? "."
+                : ". At the other torques the largest transmission error is mainly deflection of teeth and bearings."),
        largest.everywhere()});
 }
 
@@ -98,7 +99,7 @@ void add_loads(std::vector<Conclusion>& list, const PairRunResult& result) {
           {words,
            fmt::format("{} to {} {} from {} to {}, at {} {}", to_text(y.front(), 4), to_text(y.back(), 4), unit,
                        torque_text(x.front()), torque_text(x.back()), to_text(grid.y.front(), 4), grid.y_unit),
-           fmt::format("{}; farthest from a straight line by {:.1f} % of the range.",
+           fmt::format("{}. The largest deviation from a straight line is {:.1f} % of the range.",
                        grows ? "It grows throughout" : "It does not grow throughout", 100 * off_line(x, y)),
            grows});
     }
@@ -121,26 +122,26 @@ Conclusion excitation(const PairRunResult& result, const SpeedRow& low, const Sp
     return row.errors_alone.acceleration > row.stiffness_alone.acceleration;
   };
   Conclusion c{
-      .statement = "Stiffness excites most at low speed, the errors at high speed",
+      .statement = "Stiffness is the main excitation at low speed, the errors at high speed",
       .numbers = "acceleration, errors alone and stiffness alone: ",
-      .why = fmt::format("More is excited at the lowest speed by the {}, at the highest by the {}. ",
+      .why = fmt::format("The main excitation is the {} at the lowest speed and the {} at the highest speed. ",
                          errors_more(low) ? "errors" : "stiffness", errors_more(high) ? "errors" : "stiffness"),
       .agrees = !errors_more(low) && errors_more(high) && errors_more(top)};
   for (const auto* row : {&low, &top, &high})
     c.numbers +=
         fmt::format("{}{} and {} m/s² at {}", row == &low ? "" : ", ", to_text(row->errors_alone.acceleration, 3),
                     to_text(row->stiffness_alone.acceleration, 3), speed_text(row->pinion_speed));
-  c.why += std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)
-               ? "A harmonic stiffness and the error both excite at mesh frequency: their ratio hardly depends on the "
-                 "speed."
-               : "At low speed the higher harmonics of the stiffness weigh most.";
+  c.why +=
+      std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)
+          ? "Harmonic stiffness and error both excite at mesh frequency, so their ratio hardly depends on the speed."
+          : "At low speed the higher harmonics of the stiffness have the largest effect.";
   if (!result.mesh.computed || errors_more(low)) return c;
   // What excites at low speed may be the roughness of the table.
   const auto lte = result.mesh.computed->lte_mean();
   const double error = lte.value * lte.error_relative;
-  c.why +=
-      fmt::format(" From order {} on they are smaller than the estimated error of the table, ±{} µm, and not known.",
-                  first_unknown_order(*result.mesh.computed, error), um_text(error, 2));
+  c.why += fmt::format(
+      " From order {} on they are smaller than the estimated error of the table (±{} µm) and therefore not known.",
+      first_unknown_order(*result.mesh.computed, error), um_text(error, 2));
   if (c.agrees == true) c.agrees = std::nullopt;
   return c;
 }
@@ -171,10 +172,10 @@ void add_speeds(std::vector<Conclusion>& list, const PairRunResult& result) {
         {words,
          fmt::format("{} at {}, {} at {}, {} {} at most", to_text(scale * a, 4), speed_text(low.pinion_speed),
                      to_text(scale * b, 4), speed_text(middle.pinion_speed), to_text(scale * peak, 4), unit),
-         fmt::format("Between the lowest and the middle speed it changes by {:.0f} % of its largest value; from the "
-                     "middle speed to the peak it {}. Below 5 % a linear axis shows it as steady, above 20 % it "
-                     "does not.",
-                     100 * change, rises ? "rises" : "does not rise"),
+         fmt::format(
+             "Between the lowest and the middle speed it changes by {:.0f} % of its largest value; from the middle "
+             "speed to the peak it {}. A change below 5 % counts as constant, a change above 20 % does not.",
+             100 * change, rises ? "rises" : "does not rise"),
          agrees});
   }
   list.push_back(excitation(result, low, *top, high));
@@ -233,7 +234,7 @@ Section pair_conclusions_section(const PairRunResult& result) {
   Section section{"conclusions", "The paper's conclusions"};
   const auto all = conclusions(result);
   if (all.empty()) return section;
-  PageTable table{.head = {"statement", "computed", "", "why"}};
+  PageTable table{.head = {"statement", "computed", "", "reason"}};
   for (const auto& c : all)
     table.rows.push_back({c.statement, c.numbers,
                           !c.agrees   ? tag(Text::Look::undecided, "undecided")
@@ -241,8 +242,8 @@ Section pair_conclusions_section(const PairRunResult& result) {
                                       : tag(Text::Look::disagrees, "fails"),
                           c.why});
   section.blocks = paragraph(
-                       "Statements of the paper on helical pairs with manufacturing errors, judged from the numbers of "
-                       "this scene.") +
+                       "Statements of the paper on helical pairs with manufacturing errors, compared with the numbers "
+                       "of this scene.") +
                    table;
   return section;
 }

@@ -39,12 +39,11 @@ Pictures histogram_picture(const PairRunResult& result) {
   plot.notes.push_back(
       {q + 0.27 * drawn.x.back(), 0.72 * top,
        fmt::format("{:.0f} % of the draws lie below {:.2f} µm", 100 * result.errors.problem->probability, q)});
-  return {
-      {plot},
-      {{"drawn", 0}, {"exact law (hypoexponential in the square)", 1}, {"quantile of the draws", 5}},
-      phrase("The pinion's error over a turn is T = X₁ sin θ + X₂ sin zθ with Rayleigh amplitudes; this is how large "
-             "its envelope becomes from gear to gear. Table: {}, {}.",
-             code("errors/samples.csv"), code("errors/histogram.csv"))};
+  return {{plot},
+          {{"drawn", 0}, {"exact law (its square is hypoexponential)", 1}, {"quantile of the draws", 5}},
+          phrase("The error of the pinion over a turn is T = X₁ sin θ + X₂ sin zθ with Rayleigh-distributed "
+                 "amplitudes. The histogram shows the amplitude of its envelope from gear to gear. Tables: {}, {}.",
+                 code("errors/samples.csv"), code("errors/histogram.csv"))};
 }
 
 }  // namespace
@@ -62,10 +61,10 @@ Section pair_errors_section(const PairRunResult& result) {
                "turn) and η₂ = {:.3f} µm (once per tooth) for the pinion, {:.3f} and {:.3f} µm for the wheel.",
                problem.samples, problem.seed, to_text(problem.divisor, 5), 1e6 * problem.eta_1(0),
                1e6 * problem.eta_2(0), 1e6 * problem.eta_1(1), 1e6 * problem.eta_2(1))) +
-           histogram_picture(result) + heading(fmt::format("What “{:.4g} %” may mean", 100 * problem.probability)) +
+           histogram_picture(result) + heading(fmt::format("Meanings of “{:.4g} %”", 100 * problem.probability)) +
            paragraph(fmt::format(
-               "The same law has many quantiles at {:.4g} %, depending on what is asked. The sample quantile stands "
-               "with its distribution-free interval at {:.4g} % confidence, the exact one is that of the law.",
+               "The same law has many quantiles at {:.4g} %, one for each quantity. The sample quantile has a "
+               "distribution-free interval at {:.4g} % confidence. The exact quantile is that of the law.",
                100 * problem.probability, 100 * problem.confidence));
   PageTable table{.head = {"reading", "of", "draws, µm", "interval, µm", "exact, µm", ""}};
   for (const auto& r : readings)
@@ -74,13 +73,13 @@ Section pair_errors_section(const PairRunResult& result) {
                           micrometre_text(r.exact) + (is_outside(r) ? " " + muted("outside") : Text()),
                           taken == &r ? tag(Text::Look::agrees, "applied") : Text()});
   blocks += table;
-  blocks += paragraph(fmt::format(
-      "{} of {} exact values lie outside their intervals; {:.1f} are to be expected at this confidence if the readings "
-      "were independent, which those of one gear are not.",
-      std::count_if(readings.begin(), readings.end(), is_outside), readings.size(),
-      (1 - problem.confidence) * static_cast<double>(readings.size())));
+  blocks +=
+      paragraph(fmt::format("{} of {} exact values lie outside their intervals. At this confidence, {:.1f} are "
+                            "expected if the readings are independent. The readings of one gear are not independent.",
+                            std::count_if(readings.begin(), readings.end(), is_outside), readings.size(),
+                            (1 - problem.confidence) * static_cast<double>(readings.size())));
   if (!taken)
-    blocks += paragraph(fmt::format("None of them is applied: the scene prescribes {} µm at mesh frequency.",
+    blocks += paragraph(fmt::format("No reading is applied: the scene prescribes {} µm at mesh frequency.",
                                     to_text(1e6 * result.errors.amplitude, 5)));
   else
     blocks += paragraph(

@@ -59,8 +59,8 @@ Section pair_motion_section(const PairRunResult& result) {
       {.x = "mesh_order", .y_scale = 1e-3}, {{.column = "mesh_force_N", .style = Series::Style::bars}}));
   section.blocks = Pictures{pictures,
                             {},
-                            phrase("The first mesh cycles of the evaluated window at the operating point; whole window "
-                                   "of {} mesh cycles: {}.",
+                            phrase("The first mesh cycles of the evaluated window at the operating point. The whole "
+                                   "window of {} mesh cycles: {}.",
                                    f.window_cycles, code("dynamics/time_series.csv"))};
   return section;
 }
@@ -71,7 +71,7 @@ Section pair_modes_section(const PairRunResult& result) {
   const auto& modes = result.response->modes;
   const auto system = dynamics::assemble(*result.pair);
   const double stiffness = dynamics::mean_tangent_stiffness(result.pair->mesh);
-  PageTable table{.head = {"mode", "frequency, Hz", "speed at which the mesh meets it, r/min", "strain in the mesh"},
+  PageTable table{.head = {"mode", "frequency, Hz", "pinion speed at resonance, r/min", "strain energy of the mesh"},
                   .style = PageTable::Style::numbers};
   for (auto dof : modes.dofs) {
     std::replace(dof.begin(), dof.end(), '_', ' ');
@@ -91,11 +91,11 @@ Section pair_modes_section(const PairRunResult& result) {
     for (Eigen::Index k = 0; k < mode.shape.size(); ++k)
       cells.emplace_back(fmt::format("{:.0f} %", 100 * system.mass()(k, k) * mode.shape[k] * mode.shape[k]));
   }
-  section.blocks = paragraph(
-                       "Mean mesh stiffness, undamped. Strain in the mesh: its share of the elastic energy, what makes "
-                       "a mode answer "
-                       "to the mesh. The last columns are the shares of the kinetic energy.") +
-                   table;
+  section.blocks =
+      paragraph(
+          "Undamped modes with the mean mesh stiffness. Strain energy of the mesh: its share of the elastic energy. "
+          "The mesh excites modes with a large share. The last columns are the shares of the kinetic energy.") +
+      table;
   return section;
 }
 

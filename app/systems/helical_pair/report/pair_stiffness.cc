@@ -14,7 +14,7 @@ namespace {
 const char* source_words(const std::string& source) {
   if (source == "iso_6336") return "ISO 6336-1 formula";
   if (source == "closed_form") return "closed form";
-  return source == "computed" ? "finite elements" : "given by the scene";
+  return source == "computed" ? "finite elements" : "prescribed by the scene";
 }
 
 PageTable means_table(const PairRunResult& result) {
@@ -22,7 +22,7 @@ PageTable means_table(const PairRunResult& result) {
   for (const auto& s : result.stiffnesses)
     if (s.taken) reference = s.value;
   PageTable table{.head = {"source", "along the normal, N/µm", "along the transverse line of action, N/µm",
-                           "relative to the one applied", "what it is", ""}};
+                           "relative to the applied one", "description", ""}};
   for (const auto& s : result.stiffnesses) {
     auto& row = table.rows.emplace_back(1, source_words(s.source));
     if (std::isfinite(s.value)) {
@@ -46,14 +46,12 @@ Blocks means_sentence(const PairRunResult& result) {
   if (known.size() < 2) return {};
   std::sort(known.begin(), known.end(), [](const auto* a, const auto* b) { return a->value < b->value; });
   const auto &low = *known.front(), &high = *known.back();
-  return paragraph(fmt::format(
-      "From the softest ({}) to the stiffest ({}) it is {:.1f} %. The formula holds for standard teeth and solid "
-      "bodies, "
-      "without bores, rims and the actual load. In the closed form each slice of the helix bends as a spur tooth of "
-      "its "
-      "own in plane strain. Finite elements have free end faces, contact lines of finite length and slices that "
-      "support each other.",
-      source_words(low.source), source_words(high.source), 100 * (high.value / low.value - 1)));
+  return paragraph(
+      fmt::format("The difference between the softest ({}) and the stiffest ({}) is {:.1f} %. The ISO formula holds "
+                  "for standard teeth and solid bodies. It contains no bores, no rims and not the actual load. In the "
+                  "closed form each slice of the helix bends as a separate spur tooth in plane strain. Finite elements "
+                  "have free end faces, contact lines of finite length and slices that support each other.",
+                  source_words(low.source), source_words(high.source), 100 * (high.value / low.value - 1)));
 }
 
 /// N/µm over one mesh cycle.
@@ -108,11 +106,11 @@ Pictures cycle_picture(const PairRunResult& result) {
     plot.series.push_back(over_cycle("finite elements", 2, *result.mesh.table, geometry));
   else if (input.stiffness == StiffnessShape::table)
     plot.series.push_back(over_cycle("table", 0, *result.mesh.table, geometry));
-  return Pictures{
-      {plot},
-      {},
-      "Secant stiffness at the nominal mesh force. Phases of the sources are their own: a given wave begins where the "
-      "scene states, the others where a tooth pair touches at the pitch point in the middle of the face width."};
+  return Pictures{{plot},
+                  {},
+                  "Secant stiffness at the nominal mesh force. Each source has its own phase. A prescribed wave begins "
+                  "at the phase of the scene. The others begin where a tooth pair touches at the pitch point in the "
+                  "middle of the face width."};
 }
 
 }  // namespace

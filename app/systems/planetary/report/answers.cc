@@ -60,11 +60,11 @@ Blocks stage_verdict(const RunResult& result) {
 Section comparison_section(const RunResult& result) {
   Section section{"comparison", "Comparison with the source"};
   if (!result.reference) return section;
-  PageTable table{.head = {"published statement", "published", "computed", "", "why"}};
+  PageTable table{.head = {"published statement", "published", "computed", "", "reason"}};
   for (const auto& v : verdicts(result))
     table.rows.push_back({v.statement + (v.where.empty() ? Text() : " " + muted("(" + v.where + ")")), v.published,
                           muted(v.quantity) + line_break() + v.computed, outcome_tag(v.outcome), v.why});
-  PageTable paths{.head = {"planet path, centres held", "stiffness, N/µm", "compliance of the ring mesh",
+  PageTable paths{.head = {"path of a planet, centres fixed", "stiffness, N/µm", "compliance share of the ring mesh",
                            "of the sun mesh", "of the planet bearing"},
                   .style = PageTable::Style::numbers};
   for (std::size_t i = 0; i < result.rings.size(); ++i) {
@@ -75,8 +75,7 @@ Section comparison_section(const RunResult& result) {
   }
   section.blocks =
       source_blocks(*result.reference) + table +
-      paragraph("What a ring can do to load sharing is bounded by its part in the compliance of a planet's path:") +
-      paths;
+      paragraph("A ring affects load sharing only through its share in the compliance of a planet's path:") + paths;
   return section;
 }
 

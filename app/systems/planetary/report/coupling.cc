@@ -15,8 +15,8 @@ const char* coupling_name(RimCoupling model) {
 
 Section coupling_section(const RunResult& result) {
   PageTable size, effect;
-  size.head = {"ring", "another mesh's load moves a mesh by at most, of what its own does",
-               "first elastic mode of the ring, Hz (waves)", "coupling applied", "why"};
+  size.head = {"ring", "largest deflection under the load of another mesh / under its own load",
+               "first elastic mode of the ring, Hz (waves)", "coupling applied", "reason"};
   for (const auto* head : {"ring", "coupling", "load sharing, averaged", "instantaneous", "quasi-static",
                            "peak factor, sun meshes", "peak factor, ring meshes"})
     effect.head.emplace_back(head);
@@ -46,20 +46,19 @@ Section coupling_section(const RunResult& result) {
   if (size.rows.empty()) return section;
   section.blocks =
       paragraph(
-          "A load at one planet moves the ring at all others. The stiffness table of a single mesh does not know that; "
-          "the compliance between the meshes at every ring position does.") +
+          "The load of one planet deflects the ring at all other planets. The stiffness table of a single mesh does "
+          "not contain this effect. The compliances between the meshes at every ring position contain it.") +
       size;
   if (!effect.rows.empty())
-    section.blocks +=
-        paragraph(fmt::format("What it changes. All rows were integrated in time with the same settings and evaluated "
-                              "over {} mesh cycles, which "
-                              "need not be a whole period: they compare with each other, not with the key results.",
-                              cycles)) +
-        effect;
+    section.blocks += paragraph(fmt::format("Effect of the coupling. All rows were integrated in time with the same "
+                                            "settings and evaluated over {} mesh cycles. These cycles need not be a "
+                                            "whole period. Compare the rows with each other, not with the key results.",
+                                            cycles)) +
+                      effect;
   if (!negligible.empty())
-    section.blocks +=
-        paragraph(fmt::format("What it changes was not computed for '{}': less than a tenth of the wanted accuracy.",
-                              fmt::join(negligible, "', '")));
+    section.blocks += paragraph(
+        fmt::format("The effect was not computed for '{}': the coupling is less than a tenth of the wanted accuracy.",
+                    fmt::join(negligible, "', '")));
   return section;
 }
 

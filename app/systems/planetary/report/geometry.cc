@@ -75,8 +75,8 @@ Section drawings_section(const RunResult& result) {
         .structure = ring_structure(input)};
     blocks += Pictures{{drawn(stage_section(scene, result.geometry, i, id)), drawn(axial)},
                        {},
-                       phrase("{}: {}. Left: transverse section. Right: upper half of the ring in axial section, teeth "
-                              "pale; orange: what holds it.",
+                       phrase("{}: {}. Left: transverse section. Right: upper half of the ring in axial section, with "
+                              "pale teeth. Orange: fixed surface or supports.",
                               bold(ring.name), ring_structure(input).words().description)};
     const auto same =
         std::find_if(rings.begin(), rings.begin() + static_cast<std::ptrdiff_t>(i),

@@ -25,21 +25,20 @@ Pictures of_both_meshes(const RunResult& result, PlanetLines shown, const Text& 
 }
 
 Blocks planets_over_time(const RunResult& result) {
-  const std::string cut =
-      fmt::format(" Windows longer than {:.0f} mesh cycles are cut here; the files hold them whole.", shown_cycles);
+  const std::string cut = fmt::format(
+      " The plots show at most {:.0f} mesh cycles of the window; the files contain the whole window.", shown_cycles);
   return heading("Load sharing") +
-         of_both_meshes(
-             result, {&StageResponse::load_sharing, "", "_averaged", "", "", "N F / Σ|F|"},
-             "Each planet's part of the power, forces averaged over a mesh cycle. The load-sharing factor is "
-             "the highest point." +
-                 cut) +
+         of_both_meshes(result, {&StageResponse::load_sharing, "", "_averaged", "", "", "N F / Σ|F|"},
+                        "Force of each planet over the mean of all planets, averaged over a mesh cycle. The "
+                        "load-sharing factor is the highest point." +
+                            cut) +
          heading("Peak factor") +
-         of_both_meshes(
-             result, {&StageResponse::force_factors, "", "_largest", "_smallest", "_largest", "F / nominal force"},
-             "Line: largest force of each mesh cycle over the nominal force, whose highest point is the peak "
-             "factor; band: down to the smallest force. force_factors.csv holds the dynamic factor of every "
-             "mesh cycle." +
-                 cut) +
+         of_both_meshes(result,
+                        {&StageResponse::force_factors, "", "_largest", "_smallest", "_largest", "F / nominal force"},
+                        "Line: largest force of each mesh cycle over the nominal force; its highest point is the peak "
+                        "factor. Band: from the smallest to the largest force. force_factors.csv contains the dynamic "
+                        "factor of every mesh cycle." +
+                            cut) +
          heading("Forces") +
          of_both_meshes(result, {&StageResponse::waveform, "", "", "", "", "F / nominal force", 6},
                         "The first six mesh cycles of the window, at full resolution.");
@@ -146,7 +145,7 @@ Pictures planet_lines(const RunResult& result, const PlanetLines& shown, const T
 }
 
 Section dynamics_section(const RunResult& result) {
-  Section section{"dynamics", "Load sharing, dynamic and peak factors", paragraph("Not asked for.")};
+  Section section{"dynamics", "Load sharing, dynamic and peak factors", paragraph("Not requested.")};
   if (responses_of(result).empty()) return section;
   section.blocks = planets_over_time(result) + heading("Spectrum of the mesh forces") + spectra(result) +
                    heading("Dynamic and peak factor of every planet") + factors_table(result);

@@ -154,9 +154,9 @@ Blocks campbell_part(const RunResult& result) {
   legend.insert(legend.end(), {{"operating speed", 4}, {"mesh orders 1, 2, ...", 6}, {"critical speeds", 7}});
   return heading("Campbell diagram") +
          Pictures{pictures, legend,
-                  "Natural frequencies over speed, seen from the carrier, with gyroscopic and centripetal terms and no "
-                  "damping. A dot marks a mesh order that excites the mode it crosses: the phases between the planets "
-                  "cancel the others, except for what errors let through."} +
+                  "Natural frequencies over speed in the frame of the carrier, with gyroscopic and centripetal terms "
+                  "and without damping. A dot marks a mesh order that excites the mode at the crossing. At the other "
+                  "crossings the phases between the planets cancel the excitation; errors leave a part of it."} +
          table;
 }
 
@@ -207,8 +207,8 @@ Blocks shapes_part(const RunResult& result) {
   return heading("Mode shapes") +
          Pictures{pictures,
                   {{"sun", 0}, {"planets", 1}, {"ring", 2}, {"carrier", 6}},
-                  fmt::format("The two lowest of each kind, ring '{}'; grey at rest, displacements not to scale. Point "
-                              "at one and it swings. One of each pair or multiple.",
+                  fmt::format("The two lowest modes of each kind, for ring '{}'. Grey: at rest. Displacements are not "
+                              "to scale. Point at a mode to animate it. Of each pair or multiple, one mode is shown.",
                               name),
                   Pictures::Layout::shapes};
 }
@@ -219,9 +219,9 @@ Section modes_section(const RunResult& result) {
   Section section{"modes", "Natural frequencies"};
   if (!kinds_of(result).empty())
     section.blocks =
-        paragraph(fmt::format("Mean tangent mesh stiffness, all teeth in contact, without rotation; with each, where "
-                              "most of the strain energy sits and its damping ratio ζ at the operating speed. The mesh "
-                              "frequency is {:.1f} Hz.",
+        paragraph(fmt::format("Natural frequencies without rotation, with the mean tangent mesh stiffness and all "
+                              "meshes in contact. Beside each frequency: the elements with most of the strain energy, "
+                              "and the damping ratio ζ at the operating speed. The mesh frequency is {:.1f} Hz.",
                               result.geometry.operating_point.mesh_frequency)) +
         modes_table(result) + shapes_part(result) + campbell_part(result);
   return section;

@@ -11,7 +11,7 @@ namespace annulus::app {
 namespace {
 
 std::string section_words(const StageMotion& m) {
-  if (m.section == "period_1") return "repeats with the errors";
+  if (m.section == "period_1") return "repeats after one error period";
   if (m.section == "period_n") return fmt::format("repeats after {} mesh cycles", m.section_period.value_or(0));
   return m.section == "irregular" ? "does not repeat" : "window too short to decide";
 }
@@ -34,7 +34,7 @@ PageTable motion_table(const RunResult& result) {
   row("mean torque on the housing through the ring, kN m", 1e-3,
       [](const StageMotion& m) { return m.ring_torque_mean; });
   row("sun orbit, largest distance from its mean, µm", 1e6, [](const StageMotion& m) { return m.sun_orbit_extent; });
-  rows.push_back({"motion once per mesh cycle", [](const StageResponse& r) { return Text(section_words(r.motion)); }});
+  rows.push_back({"repetition of the motion", [](const StageResponse& r) { return Text(section_words(r.motion)); }});
   return side_by_side(responses_of(result), rows);
 }
 
@@ -100,9 +100,9 @@ Blocks poincare_sections(const RunResult& result) {
   return heading("Poincaré section") +
          Pictures{{plots.begin(), plots.end()},
                   planet_legend(result.scene.stage.planets),
-                  "Dynamic transmission error of both meshes of each planet once per mesh cycle. A motion that repeats "
-                  "with the errors has no more points than the error period has mesh cycles. A cloud that keeps "
-                  "filling does not repeat."};
+                  "Approach of both meshes of each planet, once per mesh cycle. A motion that repeats after one error "
+                  "period has at most one point for each mesh cycle of this period. A motion that does not repeat "
+                  "fills a cloud."};
 }
 
 }  // namespace
@@ -118,11 +118,12 @@ Section motion_section(const RunResult& result) {
                          .y_label = "force on the pin, kN",
                          .scale = 1e-3,
                          .level = {}};
-  section.blocks = motion_table(result) + heading("Planet pins") +
-                   planet_lines(result, pins,
-                                "Resultant of the radial and tangential force, the planet's centrifugal force "
-                                "included. Line: largest of each mesh cycle; band: down to the smallest.") +
-                   orbits(result) + poincare_sections(result);
+  section.blocks =
+      motion_table(result) + heading("Planet pins") +
+      planet_lines(result, pins,
+                   "Resultant of the radial and tangential force, including the centrifugal force of the planet. Line: "
+                   "largest value of each mesh cycle. Band: from the smallest to the largest value.") +
+      orbits(result) + poincare_sections(result);
   return section;
 }
 

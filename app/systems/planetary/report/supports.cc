@@ -167,7 +167,7 @@ Section supports_section(const RunResult& result) {
                                "row is a " +
                                    words.support + ", " + words.map_caption +
                                    ". The black line follows the contact of the teeth. Below: the same forces over the "
-                                   "distance from the contact."} +
+                                   "angle from the contact."} +
                       Pictures{{force_plot(ring.name, ring.mesh)}};
   }
   return section;

@@ -51,13 +51,12 @@ std::optional<Text> agreement_text(const TwoKVResult& result) {
   const double uncertainty = known_to * std::sqrt(squares);
   return joined(published, "; ") +
          fmt::format(
-             ". {} of the {} inputs of the first frequency are assumed; if each were known to {:.0f} %, the frequency "
-             "would be known to ±{:.0f} % (root of the sum of squares). ",
+             ". {} of the {} inputs of the first frequency are assumed. If each is known to {:.0f} %, the frequency is "
+             "known to ±{:.0f} % (root of the sum of squares). ",
              assumed, v.inputs.size(), 100 * known_to, 100 * uncertainty) +
-         bold(widest < uncertainty
-                  ? "The differences are smaller: the agreement shows that the chosen inputs are possible, it confirms "
-                    "neither them nor the model."
-                  : "The differences are larger: model and published values disagree beyond the assumed inputs.");
+         bold(widest < uncertainty ? "The differences are smaller. The agreement shows that the assumed inputs are "
+                                     "possible. It confirms neither these inputs nor the model."
+                                   : "The differences are larger. The assumed inputs alone do not explain them.");
 }
 
 /// The assumed input that moves the first frequency most, and the input that does so of all.
@@ -67,7 +66,7 @@ Text strongest_inputs(const TwoKVResult& result) {
   Text text;
   const auto assumed = std::find_if(v.inputs.begin(), v.inputs.end(), is_assumed);
   if (assumed != v.inputs.end()) {
-    text += " The strongest assumed input is " + code(assumed->key);
+    text += " The assumed input with the largest effect is " + code(assumed->key);
     if (!assumed->reaching.empty() && assumed->reaching.back())
       text += fmt::format(": {} times its value alone would give {} Hz", to_text(*assumed->reaching.back(), 4),
                           to_text(v.targets.back()));
@@ -75,7 +74,7 @@ Text strongest_inputs(const TwoKVResult& result) {
   }
   const auto& strongest = v.inputs.front();
   if (!is_assumed(strongest))
-    text += phrase(" Of all inputs {} weighs most ({:+.3f}).", code(strongest.key), strongest.sensitivity);
+    text += phrase(" Of all inputs {} has the largest effect ({:+.3f}).", code(strongest.key), strongest.sensitivity);
   return text;
 }
 
@@ -110,9 +109,9 @@ Blocks reducer_verdict(const TwoKVResult& result) {
                     percent_off(computed, v.first_frequency()));
   }
   first += fmt::format(
-      ". It is the mode “{}”. The input's inertia times the ratio squared, {} kg m², on the torsional stiffness of {} "
-      "N m/rad alone makes {:.1f} Hz; with all bodies that turn with it {:.1f} Hz: the whole train swings as one "
-      "against its bearings.",
+      ". It is the mode “{}”. Estimate from the inertia of the input times the ratio squared ({} kg m²) and the "
+      "torsional stiffness ({} N m/rad): {:.1f} Hz. With the inertias of all bodies that turn with the input: {:.1f} "
+      "Hz. The whole train vibrates as one body against its bearings.",
       mode_words(v.names[first_elastic_mode(v)]), to_text(e.input_inertia, 4), to_text(e.stiffness, 4),
       e.input_frequency, e.train_frequency);
   Blocks blocks = paragraph(first);
@@ -128,7 +127,7 @@ Blocks reducer_verdict(const TwoKVResult& result) {
         phrase("Output error under load, {}: {} arc seconds peak to peak{}{}", name, bold(error_text(m)),
                m.output_moves()
                    ? fmt::format(", {} without inertia.", to_text(m.static_error_peak_to_peak / units::arc_second, 4))
-                   : ": nothing beyond rounding.",
+                   : ", within rounding.",
                m.steady ? "" : " No periodic steady state was reached; the result holds for the window only."));
   }
   return verdict_box(blocks);

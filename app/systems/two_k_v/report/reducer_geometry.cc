@@ -41,10 +41,9 @@ TransverseSection arc_section(const dynamics::ArcToothMesh& arc) {
 
 std::string arc_words(const dynamics::ArcToothMesh& arc) {
   return fmt::format(
-      " Below: the first arc gear, {} teeth on an eccentricity of {}, among the {} pins of the housing (orange, ⌀ {} "
-      "on a "
-      "circle of ⌀ {}). Dash-dotted: the pitch circles of both, which touch in the pitch point. The pins envelop the "
-      "outline; arcs of {} replace its loaded flanks.",
+      " Below: the first arc gear ({} teeth, eccentricity {}) among the {} pins of the housing (orange, ⌀ {} on a "
+      "circle of ⌀ {}). Dash-dotted: both pitch circles, which touch at the pitch point. The outline is the envelope "
+      "of the pins. Arcs of radius {} replace its loaded flanks.",
       arc.pins - 1, mm_text(arc.eccentricity), arc.pins, mm_text(2 * arc.pin_radius),
       mm_text(2 * arc.pin_circle_radius), mm_text(arc.arc_radius));
 }

@@ -35,7 +35,7 @@ std::optional<Plot> spectrum_plot(const std::string& name, const TwoKVCase& show
   const auto& spectrum = shown.motion->spectrum;
   if (spectrum.rows.empty()) return std::nullopt;
   const auto stage = two_k_v_kinematics(shown.scene);
-  Plot plot{.title = "Its spectrum, " + name,
+  Plot plot{.title = "Spectrum of the output error, " + name,
             .x_label = "frequency, Hz",
             .y_label = "arc seconds",
             .x_range = Range{0, 1.03 * spectrum.rows.back()[spectrum.column("frequency_Hz")]},
@@ -78,25 +78,24 @@ Plot force_plot(const std::string& title, const std::string& mesh, const TwoKVCa
 
 Blocks one_motion(const std::string& name, const TwoKVCase& shown) {
   if (dynamics::constant_stiffness(*shown.stage))
-    return paragraph(fmt::format(
-        "With the stiffness {}, the output follows the input but for the wind-up, and all forces stay constant. The "
-        "turning directions of the eccentrics alone excite nothing: what the bearings of one crank give, the others "
-        "take.",
-        name));
+    return paragraph(
+        fmt::format("Case “{}”: the output follows the input except for the wind-up, and all forces are constant. The "
+                    "turning directions of the eccentrics alone excite no vibration, because the bearings of all "
+                    "cranks compensate each other.",
+                    name));
   Blocks blocks = Pictures{
       {error_plot(name, *shown.motion, shown_turns(shown)), error_plot(name, *shown.motion, shown.motion->crank_turns)},
       {{"with inertia", 0}, {"quasi-static", 1}},
-      "A few cycles of the sun mesh, and a whole turn of the crank. Quasi-static: the changing stiffness alone, "
-      "without "
-      "inertia and damping."};
+      "First plot: a few cycles of the sun mesh. Second plot: a whole turn of the crank. Quasi-static: with the "
+      "variable stiffness, without inertia and damping."};
   if (const auto spectrum = spectrum_plot(name, shown))
     blocks += Pictures{{*spectrum},
                        {{"multiples of the sun mesh", 0}, {"of the arc mesh", 2}, {"others", 1}},
-                       "Spectrum of the output error with inertia."};
+                       "Output error with inertia."};
   return blocks + Pictures{{force_plot("Sun meshes, " + name, sun_planet, shown),
                             force_plot("Arc meshes, " + name, arc_pins, shown)},
                            {{"first", 0}, {"second (dashed)", 1}},
-                           "Over the mean force that the load asks of each mesh."};
+                           "Relative to the mean force of each mesh under the load."};
 }
 
 }  // namespace
@@ -110,7 +109,7 @@ Blocks motion_checks(const TwoKVResult& result) {
   const auto known = [](const std::optional<double>& x) { return x ? small_text(*x) : std::string("–"); };
   return side_by_side<TwoKVCase>(
       shown_cases(result),
-      {{"periodic, difference of the windows",
+      {{"periodic, difference between windows",
         [=](const TwoKVCase& c) {
           return Text(std::string(c.motion->steady ? "yes" : "no") + ", " + known(c.motion->steady_difference));
         }},
@@ -134,9 +133,9 @@ Section reducer_motion_section(const TwoKVResult& result) {
         fmt::format("{} arc seconds {}", to_text(std::abs(shown->motion->error_mean) / units::arc_second, 5), name));
   section.blocks = paragraph(fmt::format(
       "Periodic motion at {} r/min of the output under {} N m. Mesh stiffness and the directions of the eccentrics "
-      "change in time. All repeats after one turn of the crank against the carrier ({} Hz); the sun meshes pass at {} "
-      "Hz, the arc meshes at {} Hz. Output error: turn of the output less turn of the input over the ratio, about its "
-      "mean; that is the wind-up, {}.",
+      "change in time. The motion repeats after one turn of the crank relative to the carrier ({} Hz). The mesh "
+      "frequency is {} Hz for the sun meshes and {} Hz for the arc meshes. Output error: rotation of the output less "
+      "rotation of the input over the ratio, about its mean. The mean is the wind-up, {}.",
       to_text(output.speed / units::rpm, 5), to_text(output.torque, 5), to_text(m.crank_frequency, 5),
       to_text(m.sun_mesh_frequency, 5), to_text(m.arc_mesh_frequency, 5), joined(wind_up, ", ").plain()));
   for (const auto& [name, shown] : shown_cases(result)) section.blocks += one_motion(name, *shown);

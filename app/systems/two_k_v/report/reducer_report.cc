@@ -49,9 +49,8 @@ Page reducer_report(const TwoKVResult& result) {
                     torsion_section(result),
                     reducer_motion_section(result),
                     {"stiffness", "Mesh stiffness",
-                     paragraph(
-                         "At the load of the scene: of one involute mesh along its line of action, of one arc gear "
-                         "along the tangent of the pitch point.") +
+                     paragraph("Stiffness at the load of the scene: of one involute mesh along its line of action, of "
+                               "one arc gear along the tangent at the pitch point.") +
                          stiffness_blocks(case_meshes(result)) + arc_pins_blocks(result)},
                     contact_section(solved)},
        .checks = motion_checks(result)});

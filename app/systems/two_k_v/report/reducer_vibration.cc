@@ -50,7 +50,8 @@ std::string body_words(const std::string& body) {
 PageTable frequency_table(const TwoKVResult& result) {
   const auto& v = *result.own.vibration;
   const auto energy = dynamics::by_group(v.energy);
-  PageTable table{.head = {"mode", "frequency, Hz", "over the crank angle, Hz", "strain energy in", "moves most"}};
+  PageTable table{
+      .head = {"mode", "frequency, Hz", "range over the crank angle, Hz", "strain energy in", "largest motion"}};
   if (result.computed) table.head.emplace_back("with computed stiffness, Hz");
   for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
     const auto row = v.over_crank.frequency.row(static_cast<Eigen::Index>(m));
@@ -89,11 +90,10 @@ Pictures over_crank_plots(const std::string& name, const TwoKVVibration& v) {
     change.series.push_back({.label = mode_title(m), .x = x, .y = closed(row, 100 / row.mean()), .colour = m});
     for (auto& value : change.series.back().y) value -= 100;
   }
-  return {
-      {absolute, change},
-      legend,
-      "Frozen at each crank angle with the mesh stiffness of that position. The bearings of the arc gears push along "
-      "directions that turn with the crank; half a turn exchanges the arc gears."};
+  return {{absolute, change},
+          legend,
+          "Natural frequencies at fixed crank angles, each with the mesh stiffness of its position. The directions of "
+          "the arc gear bearings turn with the crank. Half a turn exchanges the arc gears."};
 }
 
 const Legend body_legend = {{"input", 4}, {"sun", 0}, {"planets", 1}, {"cranks", 3}, {"arc gears", 2}};
@@ -118,12 +118,11 @@ Blocks shape_pictures(const TwoKVVibration& v) {
     pictures.emplace_back(chart);
   }
   return heading("Mode shapes") +
-         Pictures{
-             pictures, body_legend,
-             "Displacements as lengths, the largest 1: turns times base radius (input, sun, planets), eccentricity "
-             "(cranks) or radius of the crank circle (arc gears); centres along their directions of motion. "
-             "mode_shapes.csv has the numbers.",
-             Pictures::Layout::shapes};
+         Pictures{pictures, body_legend,
+                  "Displacements as lengths; the largest is 1. Rotations are multiplied by the base radius (input, "
+                  "sun, planets), the eccentricity (cranks) or the radius of the crank circle (arc gears). Centres are "
+                  "shown along their directions of motion. Numbers: mode_shapes.csv.",
+                  Pictures::Layout::shapes};
 }
 
 /// How every shape changes while the crank turns; modes are numbered by rising frequency at each angle.
@@ -159,8 +158,8 @@ Blocks shapes_over_crank(const TwoKVVibration& v) {
   return heading("Mode shapes over the crank angle") +
          Pictures{
              pictures, body_legend,
-             "Stiffness as given; modes numbered by rising frequency at each angle, so two that cross change their "
-             "numbers. Dashed: the second body of its kind. Numbers: mode_shapes_over_crank.csv."};
+             "Stiffness as in the scene. Modes are numbered by rising frequency at each angle; two modes that cross "
+             "exchange their numbers. Dashed: the second body of its kind. Numbers: mode_shapes_over_crank.csv."};
 }
 
 std::string factor_text(const std::optional<double>& factor, const char* none) {
@@ -179,17 +178,18 @@ Section frequencies_section(const TwoKVResult& result) {
   Section section{"frequencies", "Natural frequencies", {}, "Natural frequencies over the crank angle"};
   if (!result.own.vibration) return section;
   const auto& v = *result.own.vibration;
-  section.blocks = paragraph(fmt::format("Undamped, without rotation; the table holds at the mean mesh stiffness and "
-                                         "the crank angle of the scene. All modes of one crank angle take {:.0f} µs.",
-                                         1e6 * v.seconds_per_position)) +
-                   frequency_table(result);
+  section.blocks =
+      paragraph(fmt::format("Undamped natural frequencies without rotation. The table is for the mean mesh stiffness "
+                            "and the crank angle of the scene. All modes of one crank angle are computed in {:.0f} µs.",
+                            1e6 * v.seconds_per_position)) +
+      frequency_table(result);
   for (const auto& [name, shown] : shown_cases(result)) section.blocks += over_crank_plots(name, *shown->vibration);
   section.blocks += shape_pictures(v) + shapes_over_crank(v);
   return section;
 }
 
 Section first_frequency_section(const TwoKVResult& result) {
-  Section section{"first-frequency", "First frequency", {}, "What the first frequency depends on"};
+  Section section{"first-frequency", "First frequency", {}, "Sensitivity of the first frequency"};
   if (!result.own.vibration) return section;
   const auto& v = *result.own.vibration;
   const auto& scene = result.scene;
@@ -209,10 +209,10 @@ Section first_frequency_section(const TwoKVResult& result) {
   }
   section.blocks =
       paragraph(
-          "d ln f₁/d ln p: by how many per cent the first frequency rises when the input rises by one per cent. "
-          "Stiffnesses add up to ½, inertias and masses to −½: they are shares of the energies of the mode. The range: "
-          "factors on one input alone between which f₁ stays within ±5 %.") +
-      Pictures{{chart}, {{"assumed", 1}, {"given or computed", 0}}} + table;
+          "d ln f₁/d ln p: change of the first frequency in per cent when the input rises by one per cent. The values "
+          "of all stiffnesses add up to ½, those of all inertias and masses to −½: they are shares of the energies of "
+          "the mode. The range: factors on one input between which f₁ stays within ±5 %.") +
+      Pictures{{chart}, {{"assumed", 1}, {"prescribed or computed", 0}}} + table;
   return section;
 }
 
@@ -234,11 +234,10 @@ Section torsion_section(const TwoKVResult& result) {
            {"lost motion by ±3 % of the load, arc seconds",
             [](const auto& v) { return v.lost.elastic / units::arc_second; }}})
     rows.push_back({label, [value = value](const TwoKVCase& c) { return Text(to_text(value(*c.vibration), 4)); }});
-  section.blocks =
-      paragraph(
-          "Torque over turn of the output with the input held, all elastic parts condensed. Seen from the input with "
-          "the output held it is smaller by the ratio squared.") +
-      Pictures{{plot}} + side_by_side(shown_cases(result), rows);
+  section.blocks = paragraph(
+                       "Torque over rotation of the output with the input fixed, including all elastic parts. Seen "
+                       "from the input with the output fixed, the stiffness is smaller by the ratio squared.") +
+                   Pictures{{plot}} + side_by_side(shown_cases(result), rows);
   return section;
 }
 
