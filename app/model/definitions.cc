@@ -37,8 +37,8 @@ const std::vector<Definition>& definitions() {
        "factor shows whether this matters.",
        "[ISO6336-1]"},
       {"peak_factor", "K_γ K_V", "Peak factor", "peak factor = max over meshes n and instants of |F_n| / F",
-       "The largest mesh force over the nominal mesh force F. It contains load sharing and dynamics together. It is at "
-       "most the product of K_γ and K_V. It is less if the planet with the largest share does not vibrate most. Do not "
+       "The largest mesh force over the nominal mesh force F. It contains load sharing and dynamics together. It is "
+       "about the product of K_γ and K_V, and less if the planet with the largest share does not vibrate most. Do not "
        "multiply it by K_γ again.",
        "[ISO6336-1]"},
       {"contact_loss", "", "Time without contact", "largest over the meshes of (time in which no tooth touches) / time",
@@ -53,8 +53,9 @@ const std::vector<Definition>& definitions() {
        "annulus does not compute it: gears without pitch deviations have K_Hα = 1. The load shares of the tooth pairs "
        "are in the tables of the transmission error.",
        "[ISO6336-1]"},
-      {"transmission_error", "TE, LTE", "Transmission error", "TE = r_b2 θ_2 − r_b1 θ_1 along the line of action",
-       "The lag of the driven gear behind the position of conjugate rigid gears. LTE is the transmission error under "
+      {"transmission_error", "TE, LTE", "Transmission error", "TE = r_b1 θ_1 − r_b2 θ_2 along the line of action",
+       "The lag of the driven gear behind the position of conjugate rigid gears; θ_1 is the angle of the driving gear. "
+       "LTE is the transmission error under "
        "load. The unloaded one follows from tip relief, crowning and slope alone. Peak to peak means largest less "
        "smallest over the mesh cycles at the nominal load.",
        ""},

@@ -147,7 +147,7 @@ PairPatches patches_at(const Csv& csv, const PositionKey& at) {
 
 ColourMap pressure_map(const ShownMesh& shown) {
   ColourMap map{.title = shown.title,
-                .x_label = "roll length of the planet, mm",
+                .x_label = fmt::format("roll length of the {}, mm", shown.mesh.model.planet_body),
                 .y_label = "z, mm",
                 .value_label = "pressure, MPa",
                 .height = 330};
@@ -226,7 +226,7 @@ Blocks pressures(const NamedMeshes& meshes) {
   if (!maps.empty())
     blocks += paragraph(
                   "Contact pressure of every tooth pair at the nominal load, at the position with the largest face "
-                  "load factor. Axes: roll length of the planet (small at its root, large at its tip) and face width. "
+                  "load factor. Axes: roll length (small at the root, large at the tip) and face width. "
                   "White: no contact.") +
               maps;
   if (!profiles.empty())

@@ -128,10 +128,11 @@ Section pictures_section(const NamedMeshes& meshes) {
   Pictures pictures{.layout = Pictures::Layout::meshes};
   for (const auto& [title, mesh] : meshes) {
     if (mesh->picture.empty()) continue;
-    auto& picture = pictures.list.emplace_back(Drawing{mesh->picture}, title,
-                                               mesh->model.fidelity.ends_with("solid")
-                                                   ? "Orange: fixed faces. Blue: driven flanks."
-                                                   : "Blue: planet. Orange: fixed surface. Circle: pitch point.");
+    auto& picture = pictures.list.emplace_back(
+        Drawing{mesh->picture}, title,
+        mesh->model.fidelity.ends_with("solid")
+            ? std::string("Orange: fixed faces. Blue: driven flanks.")
+            : fmt::format("Blue: {}. Orange: fixed surface. Circle: pitch point.", mesh->model.planet_body));
     picture.ring = mesh->model.ring;
   }
   return {"meshes", "Meshes", pictures.list.empty() ? Blocks() : Blocks(pictures)};

@@ -160,7 +160,7 @@ Plot shares_plot(const std::string& title, const MeshResult& mesh, std::size_t c
     }
   }
   return {.title = title,
-          .x_label = "roll length on the planet's flank, mm",
+          .x_label = fmt::format("roll length on the {}'s flank, mm", mesh.model.planet_body),
           .y_label = "share of the mesh force",
           .y_range = Range{-0.03, 1.05},
           .series = {series}};

@@ -105,6 +105,15 @@ class SweepPictures {
   std::vector<double> x_;
 };
 
+/// What the dashed lines are, picture by picture.
+std::string dashed_caption(const std::vector<FigureSpec>& figures) {
+  std::string titles;
+  for (const auto& figure : figures)
+    if (const auto* beside = figure.plotted ? find_figure(figures, figure.beside) : nullptr)
+      titles += (titles.empty() ? "Dashed: " : "; ") + beside->title;
+  return titles.empty() ? titles : titles + ".";
+}
+
 Blocks one_sweep(const Scene& scene, const StudyResults& studies, std::size_t n) {
   const auto& sweep = studies.sweeps[n];
   StudyOutcome outcome;
@@ -120,10 +129,8 @@ Blocks one_sweep(const Scene& scene, const StudyResults& studies, std::size_t n)
                  code(fmt::format("dynamics/sweep_{}.csv", n + 1)), outcome.text(),
                  sweep.tables ? fmt::format(" {} of the values have their own stiffness tables.", sweep.tables) : ""));
   const SweepPictures draw(studies, sweep);
-  const bool dashed = std::any_of(studies.figures.begin(), studies.figures.end(),
-                                  [](const auto& figure) { return figure.plotted && !figure.beside.empty(); });
   blocks += Pictures{result_pictures(studies, [&](const FigureSpec& figure) { return draw.result(figure); }),
-                     legend_of(studies.variants), dashed ? "Dashed: quasi-static." : ""};
+                     legend_of(studies.variants), dashed_caption(studies.figures)};
   if (const auto frequencies = draw.frequencies(); !frequencies.empty())
     blocks +=
         Pictures{frequencies, {}, "The lowest natural frequencies, with the tangent stiffness and without rotation."};

@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(inputs_that_differ_are_listed_and_no_others) {
   old.erase("inputs");
   const auto with_old = app::read_finished_runs({b, finished(folder.path() / "old", old)});
   BOOST_TEST(app::differing_inputs(with_old).empty());
-  BOOST_TEST(has_text(app::unknown_inputs_text(with_old), "not known of old"));
+  BOOST_TEST(has_text(app::unknown_inputs_text(with_old), "Inputs not known for old"));
 }
 
 BOOST_AUTO_TEST_CASE(runs_are_named_as_shortly_as_tells_them_apart) {

@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told_with_its_line) {
   tells(head + three + "0.75,nan\n", ":5: stiffness_N_per_m is not a finite number");
   tells(head + three + "0.5,1e9\n", "the same phase twice");
   tells(head + three + "0.75,1e9\n1,1e9\n1,1e9\n", "the same phase twice");
-  tells(head + three + "0.75,1e9\n1,2e9\n", ":6: the end of the period is not its beginning");
+  tells(head + three + "0.75,1e9\n1,2e9\n", ":6: the deflection at the end of the period is");
   tells(head + three + "-0.25,1e9\n", "between zero and 2000 mesh cycles");
   tells("mesh_cycles,stiffness_N_per_m\n0,1e9\n1e9,1e9\n", ":3: the phase has to lie between zero");
   tells("mesh_phase,lte_um,load_N\n0,1,-5\n", "load_N has to be above zero");

@@ -25,7 +25,7 @@ UNUSED = {  # word: what is used
     r"marching|marched": "time integration",
     r"likeness": "modal assurance criterion",
 }
-ABBREVIATIONS = r"(?:e\.g|i\.e|eqs?|figs?|vol|no|p|pp|sec|et al|cf|approx)\."
+ABBREVIATIONS = r"\b(?:e\.g|i\.e|eqs?|figs?|vol|no|p|pp|sec|et al|cf|approx)\."
 
 
 def plain(text):
@@ -62,8 +62,8 @@ def paragraphs(lines):
         if stripped.startswith("|"):
             yield from flush()
             if not re.fullmatch(r"[|:\- ]+", stripped):
-                for cell in plain(stripped).strip("|").split("|"):
-                    yield number, cell.strip()
+                for cell in plain(stripped).strip("|").split("|"):  # rules of a key, one after the other
+                    yield from ((number, part.strip()) for part in cell.split(";"))
             continue
         item = re.match(r"(?:[-*+]|\d+\.)\s+", stripped)
         if item or stripped.startswith(">"):
@@ -72,6 +72,8 @@ def paragraphs(lines):
         if not text:
             start = number
         text.append(stripped)
+        if line.endswith("  "):  # a break
+            yield from flush()
     yield from flush()
 
 

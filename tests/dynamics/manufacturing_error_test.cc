@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(draws_follow_their_laws) {
 
 BOOST_AUTO_TEST_CASE(laws_agree_with_quadrature_and_limits) {
   test::Verification record("Laws of the envelope and of the crest of two random amplitudes",
-                            "midpoint rule over 400 000 probabilities; law of Erlang for alike amplitudes");
+                            "midpoint rule over 400 000 probabilities; law of Erlang for equal amplitudes");
   for (const auto& [a, b] : {std::pair{5.294, 1.901}, {1.0, 3.0}, {2.0, 2.0}})
     for (const double r : {1.0, 4.0, 9.0}) {
       // Over the probabilities u of X_1 in the midpoint rule; smooth but for its ends.
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(laws_agree_with_quadrature_and_limits) {
     }
   // Alike amplitudes: the law of Erlang; nearly alike ones join it smoothly.
   const double s = 1.7 * 1.7 / 2, erlang = 1 - std::exp(-s) * (1 + s);
-  record.close("probability of the envelope, alike amplitudes", "", envelope_probability(1.7, 1, 1), erlang, 1e-14,
+  record.close("probability of the envelope, equal amplitudes", "", envelope_probability(1.7, 1, 1), erlang, 1e-14,
                "rounding");
   for (const double off : {1e-12, 1e-9, 1e-7, 1e-5})
     BOOST_TEST(std::abs(envelope_probability(1.7, 1, 1 + off) - erlang) < 2 * off + 1e-15);

@@ -210,12 +210,12 @@ BOOST_AUTO_TEST_CASE(what_unequal_spacing_leaves_alone) {
 // one planet leaves none.
 BOOST_AUTO_TEST_CASE(one_and_two_planets) {
   annulus::test::Verification record("Numbers of modes with one and with two planets",
-                                     "symmetry: alike and unlike under half a turn; none with one planet");
+                                     "symmetry: even and odd under half a turn; none with one planet");
   const auto counted = [&](const char* which, std::size_t found, int expected) {
     record.near(which, "", static_cast<double>(found), expected, 0, "counted by hand");
   };
   const auto two = annulus::dynamics::modes(stages::lin_parker(2));
-  counted("modes alike under half a turn, two planets", frequencies(two, ModeKind::rotational).size(), 6);
+  counted("modes even under half a turn, two planets", frequencies(two, ModeKind::rotational).size(), 6);
   counted("modes unlike under half a turn, two planets", frequencies(two, ModeKind::translational).size(), 9);
   const auto one = annulus::dynamics::modes(stages::lin_parker(1));
   counted("modes, one planet", one.modes.size(), 12);

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <string>
 
 #include "core/errors.h"
 #include "dynamics/systems/planetary/response.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 using namespace annulus;
 using namespace annulus::dynamics;
-
-BOOST_AUTO_TEST_SUITE(sharing_tolerances)
 
 namespace {
 
@@ -48,15 +48,23 @@ double pattern_of_errors(const PlanetaryStage& s, int c) {
 
 }  // namespace
 
+BOOST_AUTO_TEST_SUITE(sharing_tolerances)
+
 /// Three mesh forces on a floating sun are equal by statics, whatever the errors.
 BOOST_AUTO_TEST_CASE(three_planets_and_a_floating_sun_share_evenly) {
+  annulus::test::Verification record("Three planets and a floating sun with deviations of every kind",
+                                     "statics: three forces in equilibrium at 120 degrees are equal");
   const auto result = assembly_sharing(floating_sun(3), {50e-6, 20e-6, 30e-6, 40e-6}, {.assemblies = 40});
-  for (const double factor : result.factors.front()) BOOST_TEST(std::abs(factor - 1) < 1e-9);
+  for (const double factor : result.factors.front())
+    record.near("load-sharing factor of an assembly", "", factor, 1, 1e-9, "rounding of the equilibrium");
 }
 
 /// Four planets: the loads of opposite planets are equal, and 1 -1 1 -1 of them is what the errors make of the meshes
 /// in series: a = k/4 x sum of (-1)^n (e_sn + e_rn), K_γ = 1 + |a| / F. Independent of the solver.
 BOOST_AUTO_TEST_CASE(four_planets_follow_the_closed_form) {
+  annulus::test::Verification record(
+      "Four planets and a floating sun with pin position errors and an eccentric sun",
+      "closed form: K = 1 + |sum of (-1)^n (e_sn + e_rn)| k / (4 F), k both meshes in series");
   const auto nominal = floating_sun(4);
   const StageTolerances tolerances{
       .planet_pin_position = 20e-6, .sun_eccentricity = 30e-6, .within = WithinZone::uniform};
@@ -64,7 +72,8 @@ BOOST_AUTO_TEST_CASE(four_planets_follow_the_closed_form) {
     const auto s = drawn_assembly(nominal, tolerances, 7, assembly);
     const double a = in_series / 4 * std::abs(pattern_of_errors(s, 0));
     const double factor = error_period_sharing(s, {1}).factors.front();
-    BOOST_TEST(std::abs(factor - (1 + a / s.mean_mesh_force())) < 1e-8 * factor);  // rounding of the equilibrium
+    record.close("load-sharing factor of an assembly", "", factor, 1 + a / s.mean_mesh_force(), 1e-8,
+                 "rounding of the equilibrium");
   }
 }
 
@@ -72,6 +81,8 @@ BOOST_AUTO_TEST_CASE(four_planets_follow_the_closed_form) {
 /// (pi/z)²/6 = 5e-4 of their change, and cycles are whole: the highest one is met within half a cycle, (pi/z)²/2
 /// = 1.6e-3.
 BOOST_AUTO_TEST_CASE(eccentric_planets_meet_their_worst_cycle) {
+  annulus::test::Verification record("Four planets and a floating sun with eccentric planets, over the error period",
+                                     "closed form: amplitude of the sum of (-1)^n (e_sn + e_rn) as phasors");
   const auto nominal = floating_sun(4);
   for (int assembly = 0; assembly < 10; ++assembly) {
     const auto s = drawn_assembly(nominal, {.planet_eccentricity = 25e-6}, 3, assembly);
@@ -81,8 +92,9 @@ BOOST_AUTO_TEST_CASE(eccentric_planets_meet_their_worst_cycle) {
         for (const auto& e : errors) sum += (n % 2 ? -1.0 : 1.0) * std::polar(e.amount, e.phase);
     const double excess = in_series / 4 * std::abs(sum) / s.mean_mesh_force();
     const double found = error_period_sharing(s, {1}).factors.front() - 1;
-    BOOST_TEST(found < excess * (1 + 1e-9));
-    BOOST_TEST(found > excess * (1 - 2.2e-3));
+    record.at_most("excess of the load-sharing factor over its amplitude", "", found / excess, 1 + 1e-9, "rounding");
+    record.close("excess of the load-sharing factor", "", found, excess, 2.2e-3,
+                 "(pi/z)^2/6 of the mean over a mesh cycle and (pi/z)^2/2 of whole cycles, z = 55");
   }
 }
 
@@ -90,6 +102,8 @@ BOOST_AUTO_TEST_CASE(eccentric_planets_meet_their_worst_cycle) {
 /// varying stiffness, hold none that is worse by more than a thousandth; at a twentieth of the torque, where teeth
 /// separate, by one per cent.
 BOOST_AUTO_TEST_CASE(no_other_cycle_is_worse) {
+  annulus::test::Verification record("Worst mesh cycle of the error period, with backlash and harmonic stiffness",
+                                     "the equilibria of all mesh cycles of the error period");
   auto nominal = stages::ring_paper();
   nominal.sun_torque /= 10;
   constexpr int positions = 16;
@@ -110,8 +124,9 @@ BOOST_AUTO_TEST_CASE(no_other_cycle_is_worse) {
       }
       const double found = error_period_sharing(s, {1}).factors.front();
       BOOST_TEST(found <= worst * (1 + 1e-9));
-      BOOST_TEST(found >= worst * (1 - tolerance),
-                 "assembly " << assembly << ", share " << share << ": " << found << " of " << worst);
+      const auto* torque = share == 10 ? "nominal" : share == 1 ? "a tenth" : "a twentieth";
+      record.close(std::string("load-sharing factor, torque: ") + torque, "", found, worst, tolerance,
+                   share == 0.5 ? "one per cent where teeth separate" : "a thousandth");
     }
   BOOST_TEST(separated > 0);
 }
@@ -120,6 +135,8 @@ BOOST_AUTO_TEST_CASE(no_other_cycle_is_worse) {
 /// normal. The quantiles contain those of that law. Var(r²)/2 of a deviation cut at three standard deviations is
 /// s² (1 - 4.5 e^-4.5 / (1 - e^-4.5)).
 BOOST_AUTO_TEST_CASE(quantiles_are_those_of_a_half_normal_law) {
+  annulus::test::Verification record("Quantiles of the load sharing of four planets over 2000 assemblies",
+                                     "half-normal law of a sum of four independent deviations");
   const auto nominal = floating_sun(4);
   const double radius = 15e-6, cut = 4.5 * std::exp(-4.5) / (1 - std::exp(-4.5));
   const double per_coordinate = radius / 3 * std::sqrt(1 - cut);
@@ -129,10 +146,16 @@ BOOST_AUTO_TEST_CASE(quantiles_are_those_of_a_half_normal_law) {
   const auto result = assembly_sharing(nominal, {.planet_pin_position = radius}, {.assemblies = 2000, .threads = 2});
   for (const auto& [probability, normal] : {std::pair{0.5, 0.67449}, {0.95, 1.95996}, {0.99, 2.57583}}) {
     const auto found = quantile_interval(result.factors.front(), probability, 0.999);
-    BOOST_TEST(found.low <= 1 + normal * deviation);
-    BOOST_TEST(found.high >= 1 + normal * deviation);
+    const auto name = "quantile " + std::to_string(std::lround(100 * probability)) + " % of K less 1";
+    record.near(name, "", found.value - 1, normal * deviation,
+                std::max(found.high - found.value, found.value - found.low),
+                "99.9 % interval of a quantile of 2000 draws");
   }
 }
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(assembly_draws)
 
 BOOST_AUTO_TEST_CASE(draws_stay_in_their_zones_and_depend_on_nothing_else) {
   const auto nominal = stages::ring_paper();

@@ -315,7 +315,7 @@ BOOST_AUTO_TEST_CASE(flank_vertices_lie_where_they_are_wanted) {
 
 BOOST_AUTO_TEST_CASE(layers_grow_geometrically_from_both_flanks) {
   annulus::test::Verification record("Thin layers of cells under the flanks",
-                                     "geometric progression from the wanted layer, alike on both sides");
+                                     "geometric progression from the wanted layer, equal on both sides");
   const Gear gear = paper_planet();
   for (const auto& [cells, layer] : {std::pair{20, 0.02}, {21, 0.1}, {40, 0.001}, {3, 0.5}}) {
     const Mesh mesh =
