@@ -5,6 +5,7 @@
 #   scripts/install_packages.sh --all        for scripts/test.sh --all too (twice as much)
 #   scripts/install_packages.sh --nightly    for scripts/nightly.sh too
 set -euo pipefail
+cd "$(dirname "$0")/.."
 
 packages=(
   g++ cmake ninja-build pkg-config help2man dpkg-dev file
@@ -19,14 +20,17 @@ all=(
   calculix-ccx octave    # benchmarks compare with them
   python3-h5py chromium  # they read exports and reports
 )
+npm_packages=()
 nightly=(clang libclang-rt-dev libomp-dev clang-tidy valgrind)
 case "${1:-}" in
   "") ;;
   --tests) packages+=("${tests[@]}") ;;
-  --all) packages+=("${tests[@]}" "${all[@]}") ;;
-  --nightly) packages+=("${tests[@]}" "${all[@]}" "${nightly[@]}") ;;
+  --all) packages+=("${tests[@]}" "${all[@]}"); npm_packages=(axe-core@4.14.1) ;;
+  --nightly) packages+=("${tests[@]}" "${all[@]}" "${nightly[@]}"); npm_packages=(axe-core@4.14.1) ;;
   *) echo "install_packages.sh: unknown option $1" >&2; exit 2 ;;
 esac
+
+if [ ${#npm_packages[@]} -gt 0 ] && ! command -v npm >/dev/null; then packages+=(npm); fi
 
 missing=()
 for package in "${packages[@]}"; do
@@ -47,6 +51,11 @@ if [ ${#missing[@]} -gt 0 ]; then
   echo "Installing: ${missing[*]}"
   "${root[@]}" apt-get update -qq
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+fi
+
+# Reports are checked by axe-core, which Debian does not have.
+if [ ${#npm_packages[@]} -gt 0 ] && [ ! -f node_modules/axe-core/axe.min.js ]; then
+  npm install --silent --no-save --no-package-lock "${npm_packages[@]}"
 fi
 
 # The reference BLAS is three to eight times slower in the factorisations.

@@ -224,7 +224,7 @@ Page run_page(const SystemRun& run, const RunPage& page) {
     made.sections.insert(made.sections.end(), sections.begin(), sections.end());
   // What decides stands open; the rest is a click away.
   for (auto& section : made.sections) {
-    constexpr const char* open[] = {"warnings", "figures", "spread"};
+    constexpr const char* open[] = {"warnings", "figures", "spread", "tolerances"};
     section.folded = std::find(std::begin(open), std::end(open), section.anchor) == std::end(open);
   }
   for (const auto& variant : run.variants()) made.rings.push_back(variant.name);

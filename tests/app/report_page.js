@@ -21,6 +21,10 @@ function checkMarks(panel, chart, name) {
     expect(datasets[i].data.filter((p) => p.x !== null && p.y !== null).length === finite, name + ': points');
     if (s.low) result.bands += chart.data.datasets.some((d) => d.band && d.group === s.group);
   });
+  for (const scale of [chart.scales.x, chart.scales.y]) {
+    const labels = scale.ticks.map((t) => t.label).filter((label) => label !== '');
+    expect(new Set(labels).size === labels.length, name + ': equal labels of an axis: ' + labels.join(' '));
+  }
   for (const [scale, {range}] of [[chart.scales.x, panel.x], [chart.scales.y, panel.y]])
     expect(scale.min === Math.min(...range) && scale.max === Math.max(...range), name + ': other axes than in the picture');
 }
@@ -143,7 +147,29 @@ function turnBody(box) {
   result.undeformed += at.every((x, i) => Math.abs(x - body.place_mm[i]) < 1e-4);
 }
 
-window.addEventListener('load', () => {
+/// Words of a picture that reach beyond it, which a browser cuts off.
+function croppedWords() {
+  const cropped = [];
+  for (const svg of document.querySelectorAll('svg[role=img]')) {
+    const whole = svg.getBoundingClientRect();
+    if (whole.width === 0) continue;
+    for (const words of svg.querySelectorAll('text')) {
+      const {left, right, top, bottom} = words.getBoundingClientRect(), slack = 2;
+      if (left < whole.left - slack || right > whole.right + slack || top < whole.top - slack || bottom > whole.bottom + slack)
+        cropped.push(`${svg.getAttribute('aria-label').slice(0, 60)}: "${words.textContent}"`);
+    }
+  }
+  return cropped;
+}
+
+/// What axe-core finds, where the page has it.
+async function inaccessible() {
+  if (!window.axe) return ['axe-core is not there'];
+  const {violations} = await axe.run(document, {resultTypes: ['violations']});
+  return violations.map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 120)).join(' | ')}`);
+}
+
+window.addEventListener('load', async () => {
   try {
     const folds = [...document.querySelectorAll('details.section')];
     result.folds = folds.length;
@@ -156,6 +182,8 @@ window.addEventListener('load', () => {
       select.dispatchEvent(new Event('change'));
     }
     expect(document.querySelectorAll('script.picture').length === 0, 'pictures are still packed');
+    result.cropped = croppedWords();
+    if (window.check_access) result.inaccessible = await inaccessible();
     for (const box of document.querySelectorAll('.plot')) usePlot(box);
     for (const box of document.querySelectorAll('.view3d')) turnBody(box);
     const swinging = document.querySelectorAll('.swing');

@@ -18,10 +18,12 @@ namespace annulus {
 namespace {
 
 /// What report_page.js saw of a page.
-nlohmann::json used_in_browser(const std::filesystem::path& folder, std::string page, int width = 1400) {
+nlohmann::json used_in_browser(const std::filesystem::path& folder, std::string page, int width = 1400,
+                               const std::string& more_script = {}) {
   const auto end = page.rfind("</body>");
   BOOST_REQUIRE(end != std::string::npos);
-  page.insert(end, "<script>" + read_file(ANNULUS_SOURCE_DIR "/tests/app/report_page.js") + "</script>");
+  page.insert(
+      end, "<script>" + more_script + "\n" + read_file(ANNULUS_SOURCE_DIR "/tests/app/report_page.js") + "</script>");
   write_file(folder / "used.html", page);
   // A profile of its own: tests run side by side.
   const auto command = fmt::format(
@@ -59,6 +61,7 @@ void check_used(const nlohmann::json& used, int least_plots) {
     BOOST_TEST(used[what].get<int>() == plots, what << ": " << used["unusable"].dump());
   BOOST_TEST(used["rows"].get<int>() > 10 * plots);
   BOOST_TEST(used["fetched"].get<int>() == 0);  // nothing from outside
+  BOOST_TEST(used["cropped"].empty(), used["cropped"].dump());
 }
 
 }  // namespace
@@ -150,6 +153,18 @@ BOOST_AUTO_TEST_CASE(deformed_pairs_can_be_turned) {
   const auto used = used_in_browser(folder.path(), page);
   BOOST_TEST(used["bodies"].get<int>() == 2);
   for (const char* what : {"shown", "turned", "undeformed"}) BOOST_TEST(used[what].get<int>() == 2, what);
+}
+
+/// axe-core, which scripts/install_packages.sh --all fetches from npm, finds nothing in a page with all its folds open.
+BOOST_AUTO_TEST_CASE(pages_can_be_read_by_everyone) {
+  const std::filesystem::path axe = ANNULUS_NODE_MODULES "/axe-core/axe.min.js";
+  BOOST_TEST_REQUIRE(std::filesystem::exists(axe), "run scripts/install_packages.sh --all, which fetches axe-core");
+  const test::TemporaryFolder folder("report_page_access");
+  const auto text = test::quick_scene() + "[tolerances]\naccuracy_class = 6\nassemblies = 100\n";
+  const auto used = used_in_browser(folder.path(), written_page(folder.path(), "run", text), 1400,
+                                    read_file(axe) + "\nwindow.check_access = true;");
+  BOOST_TEST(used["inaccessible"].empty(), used["inaccessible"].dump(1));
+  check_used(used, 15);
 }
 
 // What decides is open, the rest folded: few screens, a small page, and no scrolling sideways on a phone.

@@ -16,7 +16,13 @@ namespace annulus {
 BOOST_AUTO_TEST_SUITE(svg)
 
 BOOST_AUTO_TEST_CASE(ticks_are_round_and_inside) {
-  for (const auto& [low, high] : {std::pair{0.0, 1.0}, {-3.7, 12.2}, {1e-9, 7e-9}, {2963.0, 2964.5}, {-1e6, 1e6}}) {
+  for (const auto& [low, high] : {std::pair{0.0, 1.0},
+                                  {-3.7, 12.2},
+                                  {1e-9, 7e-9},
+                                  {2963.0, 2964.5},
+                                  {-1e6, 1e6},
+                                  {4.04e6, 4.041e6},
+                                  {4.04e-7, 4.041e-7}}) {
     const auto ticks = app::nice_ticks(low, high, 6);
     BOOST_TEST(ticks.size() >= 3U);
     BOOST_TEST(ticks.size() <= 9U);
@@ -30,6 +36,16 @@ BOOST_AUTO_TEST_CASE(ticks_are_round_and_inside) {
     for (std::size_t i = 1; i < labels.size(); ++i) BOOST_TEST(labels[i] != labels[i - 1]);
   }
   BOOST_TEST(app::nice_ticks(1, 1, 5).size() == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(long_titles_have_lines) {
+  const std::string title = "Load sharing of the sun meshes, averaged over a mesh cycle";
+  const auto lines = app::svg::title_lines(title, 430, 54);
+  BOOST_TEST(lines.size() == 2U);
+  BOOST_TEST(lines.front() + " " + lines.back() == title);
+  BOOST_TEST(app::svg::title_lines("", 430).empty());
+  BOOST_TEST(app::svg::title_lines("short", 430).size() == 1U);
+  BOOST_TEST(app::svg::title_height(lines) > app::svg::title_height({"short"}));
 }
 
 // A turned and a shifted wheel: the sun at rest is drawn twice in the same place, and once more where it went.

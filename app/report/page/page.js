@@ -7,10 +7,33 @@
   const text = (x) =>
     x !== 0 && (Math.abs(x) >= 1e6 || Math.abs(x) < 1e-3) ? x.toExponential(4) : String(Number(x.toPrecision(6)));
 
+  /// With the digits that tell neighbouring ticks apart.
+  function tickText(x, index, ticks) {
+    const step = ticks.length > 1 ? Math.abs(ticks[1].value - ticks[0].value) : 0;
+    const largest = Math.max(...ticks.map((t) => Math.abs(t.value)));
+    if (!(step > 0) || this.type === 'logarithmic') return text(x);
+    if (x === 0) return '0';
+    if (largest >= 1e6 || step < 1e-5) return x.toExponential(Math.min(15, Math.max(0, Math.ceil(Math.log10(largest / step) - 1e-6))));
+    return x.toFixed(Math.min(12, Math.max(0, Math.ceil(-Math.log10(step) - 1e-6))));
+  }
+
+  /// A title in lines that fit.
+  function titleLines(title, width) {
+    const letters = document.createElement('canvas').getContext('2d');
+    letters.font = `bold 12px ${Chart.defaults.font.family}`;
+    const lines = [];
+    for (const word of title.split(' ')) {
+      const longer = lines.length ? `${lines[lines.length - 1]} ${word}` : word;
+      if (lines.length && letters.measureText(longer).width <= width - 8) lines[lines.length - 1] = longer;
+      else lines.push(word);
+    }
+    return lines;
+  }
+
   function axis({label, log, range, names}) {
     const scale = {type: log ? 'logarithmic' : 'linear', title: {display: Boolean(label), text: label}, offset: false,
                    min: Math.min(...range), max: Math.max(...range), reverse: range[0] > range[1],
-                   grid: {display: !names, offset: false}, ticks: {callback: text, includeBounds: false}};
+                   grid: {display: !names, offset: false}, ticks: {callback: tickText, includeBounds: false}};
     // In place of numbers, in the middle of each column or row.
     if (names)
       scale.ticks = {callback: (x) => (Number.isInteger(x - 0.5) ? names[x - 0.5] : ''), stepSize: 0.5, maxRotation: 0, autoSkip: false};
@@ -134,13 +157,14 @@
   };
 
   function makeChart(canvas, plot, panel) {
-    const axes = () => ({x: axis(panel.x), y: axis(panel.y)}), sets = datasets(plot, panel);
+    const axes = () => ({x: axis(panel.x), y: axis(panel.y)}), sets = datasets(plot, panel), title = panel.title || plot.title;
     return new Chart(canvas, {
       type: 'scatter', data: {datasets: sets, plot, panel, axes}, plugins: [zoom, rectangles],
       options: {
         animation: false, responsive: true, maintainAspectRatio: false, scales: axes(), interaction: {mode: 'pointed'},
+        onResize: (chart, {width}) => { chart.options.plugins.title.text = titleLines(title, width); },
         plugins: {
-          title: {display: Boolean(panel.title || plot.title), text: panel.title || plot.title, align: 'start', padding: 2},
+          title: {display: Boolean(title), text: titleLines(title, canvas.parentElement?.clientWidth || plot.width || 430), align: 'start', padding: 2},
           legend: {
             display: sets.some((s) => s.named), reverse: true,
             labels: {boxWidth: 16, boxHeight: 2, filter: (item, data) => data.datasets[item.datasetIndex].named && !data.datasets[item.datasetIndex].band},

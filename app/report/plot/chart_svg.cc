@@ -199,6 +199,13 @@ std::string colour_bar(const ColourScale& scale, const Chart& chart, double top)
 
 constexpr double legend_line = 17;
 
+double title_left(const Chart& chart) { return chart.panels.front().y.names.empty() ? chart.left : 4; }
+
+/// Distance from the top.
+double below_title(const Chart& chart) {
+  return svg::title_height(svg::title_lines(chart.title, chart.width, title_left(chart)));
+}
+
 /// The legend of a chart in rows that end `above` its panels.
 struct DrawnLegend {
   std::string text{};
@@ -206,7 +213,7 @@ struct DrawnLegend {
 };
 DrawnLegend legend_of(const Chart& chart) {
   DrawnLegend legend;
-  double x = chart.left, y = (chart.title.empty() ? 10 : 26) + 9;
+  double x = chart.left, y = below_title(chart) + 9;
   if (!chart.legend) return legend;
   for (const auto& mark : chart.panels.front().marks) {
     if (!mark.in_legend) continue;
@@ -217,7 +224,7 @@ DrawnLegend legend_of(const Chart& chart) {
     }
     Mark sample{.colour = mark.colour, .size = 2.5, .dash = mark.dash};
     legend.text += svg::line({x, y}, {x + 14, y}, stroke(sample)) + svg::words({x + 18, y + 3.5}, mark.label);
-    legend.height = y - (chart.title.empty() ? 10 : 26) + 9;
+    legend.height = y - below_title(chart) + 9;
     x += width;
   }
   return legend;
@@ -228,7 +235,7 @@ DrawnLegend legend_of(const Chart& chart) {
 std::string to_svg(const Chart& chart) {
   constexpr double between = 16, edge = 2;
   const auto legend = legend_of(chart);
-  const double top = (chart.title.empty() ? 10 : 26) + legend.height + (chart.scale ? 14 : 0);
+  const double top = below_title(chart) + legend.height + (chart.scale ? 14 : 0);
   const auto count = static_cast<double>(chart.panels.size());
   const double width = (chart.width - chart.left - chart.right - between * (count - 1)) / count;
   std::string text = legend.text;
@@ -251,8 +258,7 @@ std::string to_svg(const Chart& chart) {
     left += width + between;
   }
   if (chart.scale) text += colour_bar(*chart.scale, chart, top);
-  const double title_left = chart.panels.front().y.names.empty() ? chart.left : 4;
-  return svg::titled_picture(chart.title, chart.label, chart.width, chart.height, title_left, text);
+  return svg::titled_picture(chart.title, chart.label, chart.width, chart.height, title_left(chart), text);
 }
 
 }  // namespace annulus::app

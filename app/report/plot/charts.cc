@@ -3,6 +3,7 @@
 
 #include "app/report/plot/chart.h"
 #include "app/report/plot/colour_scale.h"
+#include "app/report/text/svg.h"
 
 /// The kinds of plots as marks.
 namespace annulus::app {
@@ -130,7 +131,7 @@ Chart::Chart(const BarChart& bars)
                              "#333", 4 * side, -4});
   }
   const auto rows = static_cast<double>(bars.bars.size());
-  height = (title.empty() ? 10 : 26) + bars.row_height * rows + below;
+  height = svg::title_height(svg::title_lines(title, width, 4)) + bars.row_height * rows + below;
   if (!(reach > 0)) reach = 1;
   positive = positive || !negative;
   const double note_space = notes ? 62 : 8;

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace annulus::app {
 
@@ -64,9 +66,43 @@ std::string picture(const std::string& label, const Point& corner, const Point& 
       corner.x(), corner.y(), size.x(), size.y(), escape(label), style, content);
 }
 
+namespace {
+
+constexpr double title_line = 16;
+
+/// Characters, not bytes.
+double length_of(const std::string& text) {
+  return static_cast<double>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+std::vector<std::string> title_lines(const std::string& title, double width, double title_left) {
+  constexpr double per_letter = 7.6;  // of bold letters of 13 units, wide ones
+  std::vector<std::string> lines;
+  std::istringstream text(title);
+  for (std::string word; text >> word;) {
+    const bool fits = !lines.empty() && title_left + per_letter * length_of(lines.back() + " " + word) <= width;
+    if (fits)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+  }
+  return lines;
+}
+
+double title_height(const std::vector<std::string>& lines) {
+  return 10 + title_line * static_cast<double>(lines.size());
+}
+
 std::string titled_picture(const std::string& title, const std::string& label, double width, double height,
                            double title_left, const std::string& content) {
-  const auto head = title.empty() ? "" : words({title_left, 15}, title, R"(font-size="13" font-weight="600")");
+  std::string head;
+  double y = 15;
+  for (const auto& text : title_lines(title, width, title_left)) {
+    head += words({title_left, y}, text, R"(font-size="13" font-weight="600")");
+    y += title_line;
+  }
   return picture(label.empty() ? title : label, {0, 0}, {width, std::floor(height)}, head + content,
                  R"(font-family="system-ui, sans-serif" font-size="11" fill="#333")");
 }

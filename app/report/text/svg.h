@@ -33,7 +33,11 @@ using Point = Eigen::Vector2d;
 /// see it.
 [[nodiscard]] std::string picture(const std::string& label, const Point& corner, const Point& size,
                                   const std::string& content, const std::string& style = {});
-/// The same with letters, and with its title at `title_left` in the first line when there is one.
+/// A title in lines that fit into a picture of this width; none of an empty one. `title_left`: where they begin.
+[[nodiscard]] std::vector<std::string> title_lines(const std::string& title, double width, double title_left = 0);
+/// From the top of a picture to what is below its title.
+[[nodiscard]] double title_height(const std::vector<std::string>& lines);
+/// The same with letters, and with its title at `title_left` above everything when there is one.
 [[nodiscard]] std::string titled_picture(const std::string& title, const std::string& label, double width,
                                          double height, double title_left, const std::string& content);
 

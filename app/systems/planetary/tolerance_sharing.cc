@@ -168,7 +168,7 @@ const std::vector<FigureSpec>& tolerance_figures() {
     for (const auto& q : named_quantiles)
       specs.push_back({.key = fmt::format("load_sharing_of_assemblies_{}", q.name),
                        .title = fmt::format("Load sharing of assemblies within the tolerances, {}", q.symbol),
-                       .symbol = fmt::format("K_γ {}", q.symbol),
+
                        .axis = "N |F| / Σ|F|",
                        .definition = "quantile over assemblies of the quasi-static load-sharing factor, averaged over "
                                      "a mesh cycle, largest over the error period",

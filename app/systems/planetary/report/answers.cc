@@ -27,7 +27,8 @@ Blocks assemblies_sentence(const RunResult& result) {
   for (const auto& ring : result.rings)
     if (ring.tolerances) {
       const auto p95 = ring.tolerances->figure(&dynamics::SharingQuantiles::p95, ring.tolerances->sharing.nominal());
-      rings.push_back(result.rings.size() > 1 ? phrase("{} {}", ring.name, measured(p95, 1)) : Text(measured(p95, 1)));
+      rings.push_back(result.rings.size() > 1 ? phrase("{} with {}", measured(p95, 1), bold(ring.name))
+                                              : Text(measured(p95, 1)));
     }
   if (rings.empty()) return {};
   const auto tabulated = tabulated_sharing(result.scene.stage.planets);
