@@ -242,9 +242,11 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   result.positions.round(keys);
   for (const auto& [name, member] : side_tables) (result.*member).round(keys);
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
-  for (const auto& field : solved.fields)
-    result.fields.push_back(
-        body_view(field, solved.positions[field.position], model.body_name(field.body == "planet")));
+  if (solved.fields.size() == 2) {  // the planet's, then the wheel's
+    const auto& planet = solved.fields.front();
+    result.fields.push_back(body_view(planet, solved.fields.back(), solved.positions[planet.position],
+                                      model.problem->pair, model.planet_body + " and " + model.wheel_body));
+  }
   result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"model", model.fidelity}};
   return result;
 }

@@ -50,7 +50,7 @@ struct MeshResult {
   Csv line_load{};                 ///< line_load_<mesh>.csv: load over the face width
   Csv stress{};                    ///< stress_<mesh>.csv: stress along roots and rim; its header names the curves
   std::string picture{};           ///< SVG of the meshes in contact; empty when none was meshed
-  std::vector<BodyView> fields{};  ///< deformation and stress of both bodies; in no file, may be empty
+  std::vector<BodyView> fields{};  ///< deformation and stress of both bodies in mesh; in no file, may be empty
   FileSet bodies{};                ///< OUT/<ring>/mesh: .msh and .vtu of both bodies; empty once they are written
   /// Invariants and sizes by name: force_balance_relative, max_penetration_m, unknowns, mesh_seconds ...
   std::map<std::string, double> facts{};

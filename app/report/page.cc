@@ -7,6 +7,7 @@
 
 #include "app/report/plot/chart.h"
 #include "app/report/plot/colour_scale.h"
+#include "app/report/plot/ticks.h"
 #include "app/report/text/packed.h"
 #include "app/report/text/svg.h"
 #include "core/errors.h"
@@ -155,18 +156,28 @@ class BlockWriter {
     return fmt::format("<div class=\"plot\">{}{}</div>", recorded(to_svg(chart)), data(plot_data(chart)));
   }
 
-  /// A body: its picture, and its numbers for view3d.js.
+  /// Bodies: their picture, and their numbers for view3d.js.
   std::string written(const BodyView& view) {
     has_views = true;
-    std::string colours;
-    for (const auto& colour : scale_colours(Ways::one)) colours += "," + colour;
     return fmt::format(
-        "<div class=\"view3d\">{}{}<div class=\"scale\"><i style=\"background:linear-gradient(to right{})\"></i> von "
-        "Mises stress 0 to {:.3g} MPa and more (at most {:.3g} MPa) · displacement × {:g}, at most {:.3g} µm · mesh "
-        "phase {:.4g}{}</div></div>\n",
-        recorded(to_svg(view)), data(view_data(view)), colours, view.top_MPa, view.largest_stress_MPa,
+        "<div class=\"view3d\">{}{}<div class=\"scale\">{} von Mises stress, MPa; darkest from {:g}, at most {:.0f} · "
+        "displacement × "
+        "{:g}, at most {:.3g} µm · mesh phase {:.4g}{}</div></div>\n",
+        recorded(to_svg(view)), data(view_data(view)), colour_bar(view.top_MPa), view.top_MPa, view.largest_stress_MPa,
         view.exaggeration, 1000 * view.largest_displacement_mm, view.mesh_phase,
         view.ring_tooth > 0 ? fmt::format(", ring tooth {}", view.ring_tooth) : std::string());
+  }
+
+  /// Colours from zero to a value, with ticks.
+  static std::string colour_bar(double top) {
+    std::string colours, ticks;
+    for (const auto& colour : scale_colours(Ways::one)) colours += "," + colour;
+    const auto values = nice_ticks(0, top, 4);
+    const auto labels = tick_labels(values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      ticks += fmt::format("<b style=\"left:{:.4g}%\">{}</b>", 100 * values[i] / top, labels[i]);
+    return fmt::format("<span class=\"bar\" style=\"background:linear-gradient(to right{})\">{}</span>", colours,
+                       ticks);
   }
 
   std::string written(const Drawing& drawing) { return recorded(drawing.svg); }

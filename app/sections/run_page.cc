@@ -139,21 +139,21 @@ Section pictures_section(const NamedMeshes& meshes) {
 }
 
 Section fields_section(const NamedMeshes& meshes) {
-  Blocks views;
-  for (const auto& [title, mesh] : meshes) {
-    if (mesh->fields.empty()) continue;
-    Pictures figure{.layout = Pictures::Layout::fields};
+  Pictures figure{.layout = Pictures::Layout::fields};
+  for (const auto& [title, mesh] : meshes)
     for (const auto& view : mesh->fields) figure.list.emplace_back(view, title).ring = mesh->model.ring;
-    views += figure;
-  }
   Section section{"fields", "Deformation and stress"};
-  if (!views.empty())
-    section.blocks = paragraph(
-                         "Both bodies near the contact, with this mesh alone at the nominal load. The position is that "
-                         "with the largest root stress of the second body. Displacements are exaggerated. "
-                         "Displacements of a gear on a hub are relative to the hub. Grey: outline without load. The " +
-                         code("_field.vtu") + " files contain more teeth, for ParaView.") +
-                     views;
+  if (figure.list.empty()) return section;
+  std::vector<BodyView*> views;
+  for (auto& picture : figure.list) views.push_back(&std::get<BodyView>(picture.drawn));
+  share_colours(views);
+  section.blocks = paragraph(
+                       "Both gears in mesh, with this mesh alone at the nominal load. The position is that with the "
+                       "largest root stress of the second gear. Displacements are exaggerated. Displacements of a gear "
+                       "on a hub are relative to the hub. Grey: outline without load. All pictures have one colour "
+                       "scale. The " +
+                       code("_field.vtu") + " files contain more teeth, for ParaView.") +
+                   figure;
   return section;
 }
 

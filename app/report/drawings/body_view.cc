@@ -11,6 +11,7 @@
 #include "app/report/plot/colour_scale.h"
 #include "app/report/plot/ticks.h"
 #include "core/units.h"
+#include "geometry/gear_places.h"
 
 namespace annulus::app {
 
@@ -65,19 +66,41 @@ std::vector<std::array<std::uint32_t, 4>> faces_around(const fem::BodyField& fie
   return faces_of(mesh, first * cells, (last - first + 1) * cells);
 }
 
-/// Page axes of a body whose contact lies in a direction from its axis: in the plane from above, the contact at the
-/// top; in space from before the teeth, a little from below.
-Eigen::Matrix3d page_axes(const geometry::Mesh& mesh, const Eigen::Vector3d& contact) {
-  const auto about_axis = [](double angle) {
-    return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  };
-  const double direction = std::atan2(contact.y(), contact.x());
-  if (mesh.dimension == 2) return about_axis(90 * units::deg - direction);
-  // A ring's teeth point inwards: what touches lies nearer to its axis than its middle.
-  double mean_radius = 0;
-  for (const auto& v : mesh.vertices) mean_radius += v.head<2>().norm() / static_cast<double>(mesh.vertices.size());
-  return eye_axes(contact.head<2>().norm() < mean_radius ? TeethSide::inside : TeethSide::outside) *
-         about_axis(-direction);
+/// Angles of both bodies' tooth 0 from the line of centres, and how the planet's displacement closes the mesh, in the
+/// frame of geometry::pair_places.
+struct MeshPlaces {
+  double planet = 0, wheel = 0;  ///< rad
+  double planet_rotation = 0;    ///< rad, under the load
+};
+MeshPlaces mesh_places(const geometry::GearPair& pair, const fem::LoadedPosition& position) {
+  MeshPlaces places;
+  // The pitch point lies on the line of centres.
+  places.wheel = -position.ring_angle;
+  // With its leading flank a driver turns counter-clockwise; the planet drives a ring with its trailing flank.
+  const bool counter_clockwise = !pair.internal() && pair.driver() == geometry::Driver::pinion;
+  places.planet = geometry::pair_places(pair).planet +
+                  (counter_clockwise ? 1 : -1) * position.mesh_phase * pair.pinion().pitch_angle();
+  const double deflection = position.entry.lte - position.entry.unloaded_te;
+  places.planet_rotation = (pair.internal() ? -1 : 1) * deflection / pair.pinion().base_radius();
+  return places;
+}
+
+/// Page axes: the line of centres upright; of solids from a little before their lower faces.
+Eigen::Matrix3d page_axes(bool solid) {
+  const Eigen::Matrix3d upright = Eigen::AngleAxisd(90 * units::deg, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  if (!solid) return upright;
+  // The eye below the plane sees the sectors of the lower half of a symmetric face from outside.
+  const auto behind = Eigen::AngleAxisd(180 * units::deg, Eigen::Vector3d::UnitY());
+  const auto aside = Eigen::AngleAxisd(-28 * units::deg, Eigen::Vector3d::UnitY());
+  const auto above = Eigen::AngleAxisd(18 * units::deg, Eigen::Vector3d::UnitX());
+  return (above * aside * behind).toRotationMatrix() * upright;
+}
+
+std::size_t most_stressed(const fem::BodyField& field) {
+  std::size_t worst = 0;
+  for (std::size_t v = 0; v < field.mesh.vertices.size(); ++v)
+    if (field.von_mises(v) > field.von_mises(worst)) worst = v;
+  return worst;
 }
 
 /// What only a few of the vertices exceed: the peak under the contact would make all else pale.
@@ -113,34 +136,50 @@ std::vector<std::array<Eigen::Vector3d, 2>> outline(const BodyView& view) {
 
 }  // namespace
 
-BodyView body_view(const fem::BodyField& field, const fem::LoadedPosition& position, const std::string& name) {
-  const auto& mesh = field.mesh;
-  BodyView view{
-      .name = name, .solid = mesh.dimension == 3, .mesh_phase = position.mesh_phase, .ring_tooth = position.ring_tooth};
-  if (mesh.cells.empty()) return view;
-  std::size_t worst = 0;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if (field.von_mises(v) > field.von_mises(worst)) worst = v;
-  const Eigen::Matrix3d axes = page_axes(mesh, mesh.vertices[worst]) / units::mm;
-  std::map<std::uint32_t, std::uint32_t> numbers;
+BodyView body_view(const fem::BodyField& planet, const fem::BodyField& wheel, const fem::LoadedPosition& position,
+                   const geometry::GearPair& pair, const std::string& name) {
+  BodyView view{.name = name,
+                .solid = wheel.mesh.dimension == 3,
+                .mesh_phase = position.mesh_phase,
+                .ring_tooth = position.ring_tooth};
+  if (planet.mesh.cells.empty() || wheel.mesh.cells.empty()) return view;
+  const auto places = mesh_places(pair, position);
+  const Eigen::Matrix3d axes = page_axes(view.solid);
   Eigen::AlignedBox3d box;
-  for (const auto& face : faces_around(field, worst))
-    for (const auto v : face) {
-      const auto [number, fresh] = numbers.try_emplace(v, static_cast<std::uint32_t>(numbers.size()));
-      view.faces.push_back(number->second);
-      if (!fresh) continue;
-      const Eigen::Vector3d moved = axes * field.displacement[v];
-      add_place(view.place_mm, axes * mesh.vertices[v]);
-      for (const double x : moved) view.displacement_mm.push_back(significant(x, 4));
-      view.stress_MPa.push_back(significant(field.von_mises(v) / MPa, 4));
-      view.largest_displacement_mm = std::max(view.largest_displacement_mm, moved.norm());
-      view.largest_stress_MPa = std::max(view.largest_stress_MPa, field.von_mises(v) / MPa);
-      box.extend(mesh.vertices[v] / units::mm);
-    }
-  // About a thirtieth of the body.
-  view.exaggeration = round_below(0.03 * box.sizes().maxCoeff() / std::max(view.largest_displacement_mm, 1e-12));
+  const auto add = [&](const fem::BodyField& field, double angle, double centre, double rotation) {
+    const Eigen::Matrix3d turned = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    std::map<std::uint32_t, std::uint32_t> numbers;
+    const auto before = static_cast<std::uint32_t>(view.stress_MPa.size());
+    for (const auto& face : faces_around(field, most_stressed(field)))
+      for (const auto v : face) {
+        const auto [number, fresh] = numbers.try_emplace(v, before + static_cast<std::uint32_t>(numbers.size()));
+        view.faces.push_back(number->second);
+        if (!fresh) continue;
+        const Eigen::Vector3d own = turned * field.mesh.vertices[v], place = own + centre * Eigen::Vector3d::UnitX();
+        const Eigen::Vector3d moved =
+            axes * (turned * field.displacement[v] + rotation * Eigen::Vector3d::UnitZ().cross(own)) / units::mm;
+        add_place(view.place_mm, axes * place / units::mm);
+        for (const double x : moved) view.displacement_mm.push_back(significant(x, 4));
+        view.stress_MPa.push_back(significant(field.von_mises(v) / MPa, 4));
+        view.largest_displacement_mm = std::max(view.largest_displacement_mm, moved.norm());
+        view.largest_stress_MPa = std::max(view.largest_stress_MPa, field.von_mises(v) / MPa);
+        box.extend(place / units::mm);
+      }
+  };
+  add(wheel, places.wheel, 0, 0);
+  add(planet, places.planet, pair.centre_distance(), places.planet_rotation);
+  // About a fiftieth of the bodies.
+  view.exaggeration = round_below(0.02 * box.sizes().maxCoeff() / std::max(view.largest_displacement_mm, 1e-12));
   view.top_MPa = colour_top(view.stress_MPa);
   return view;
+}
+
+void share_colours(std::vector<BodyView*> views) {
+  double top = 0;
+  for (const auto* view : views) top = std::max(top, view->top_MPa);
+  if (!(top > 0)) return;
+  const double step = round_below(top / 4);
+  for (auto* view : views) view->top_MPa = step * std::ceil(top / step - 1e-9);
 }
 
 std::string to_svg(const BodyView& view) {

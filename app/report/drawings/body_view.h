@@ -7,27 +7,34 @@
 
 #include "core/bytes.h"
 #include "fem/loaded_mesh.h"
+#include "geometry/gear_pair.h"
 
 namespace annulus::app {
 
-/// A deformed body near its contact: vertices and faces that are seen, in page axes (to the right, upwards, to the
-/// eye). It is drawn as a picture, and by view3d.js as a view that can be rotated.
+/// Two deformed bodies in mesh, near their contact: vertices and faces that are seen, in page axes (to the right,
+/// upwards, to the eye). They are drawn as a picture, and by view3d.js as a view that can be rotated.
 struct BodyView {
-  std::string name{};                                 ///< of the body, for readers
+  std::string name{};                                 ///< of the bodies, for readers
   std::vector<double> place_mm{}, displacement_mm{};  ///< three numbers a vertex
   std::vector<double> stress_MPa{};                   ///< von Mises, of every vertex
   std::vector<std::uint32_t> faces{};                 ///< four vertices each
   bool solid = false;                                 ///< not plane
   double largest_displacement_mm = 0, largest_stress_MPa = 0;
   double exaggeration = 1;  ///< of the displacements
-  double top_MPa = 1;       ///< upper end of the colours
+  double top_MPa = 1;       ///< upper end of the colours: what only a few of the vertices exceed
   double mesh_phase = 0;
   int ring_tooth = 0;
 };
 
-/// Without faces when the field has no cells.
-[[nodiscard]] BodyView body_view(const fem::BodyField& field, const fem::LoadedPosition& position,
+/// Both bodies of a pair as they stand at this position, the planet above the wheel. To the displacement of the planet
+/// belongs its rotation by the deflection of the mesh: where flanks touch, they touch at every exaggeration. Without
+/// faces when a field has no cells.
+[[nodiscard]] BodyView body_view(const fem::BodyField& planet, const fem::BodyField& wheel,
+                                 const fem::LoadedPosition& position, const geometry::GearPair& pair,
                                  const std::string& name);
+
+/// One scale for all views: up to the largest of their tops, rounded up.
+void share_colours(std::vector<BodyView*> views);
 
 /// Displacements exaggerated, coloured by von Mises stress; grey: the outline of a plane body without load.
 [[nodiscard]] std::string to_svg(const BodyView& view);

@@ -42,10 +42,10 @@ class GridPath {
 
 }  // namespace
 
-Eigen::Matrix3d eye_axes(TeethSide teeth) {
-  const double azimuth = -32 * units::deg, elevation = -24 * units::deg, outside = teeth == TeethSide::inside ? -1 : 1;
-  const Eigen::Vector3d towards(outside * std::cos(elevation) * std::cos(azimuth),
-                                outside * std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+Eigen::Matrix3d eye_axes() {
+  const double azimuth = -32 * units::deg, elevation = -24 * units::deg;
+  const Eigen::Vector3d towards(-std::cos(elevation) * std::cos(azimuth), -std::cos(elevation) * std::sin(azimuth),
+                                std::sin(elevation));
   const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(towards).normalized();
   Eigen::Matrix3d axes;
   axes << right.transpose(), towards.cross(right).transpose(), towards.transpose();

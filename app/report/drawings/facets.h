@@ -16,10 +16,8 @@ struct Facet {
 };
 
 /// Rows: the page axes when a ring is seen from inside, looking outwards and a little upwards, so that teeth, sleeve
-/// and the held face below all show; or a gear of the same attitude from outside. Its contact lies in the direction of
-/// x.
-enum class TeethSide { inside, outside };
-[[nodiscard]] Eigen::Matrix3d eye_axes(TeethSide teeth);
+/// and the held face below all show. Its contact lies in the direction of x.
+[[nodiscard]] Eigen::Matrix3d eye_axes();
 
 /// Facets and lines on a grid of a hundredth of a millimetre, as an <svg> document. Neighbours in the list with one
 /// fill become one path. `edge`: colour of the edges, empty: that of the fill; `edge_width`: part of the width.

@@ -110,7 +110,7 @@ std::string solid_picture(const fem::LoadedMeshProblem& problem, const fem::Load
       sector.faces.size() > most_drawn_faces / 5 ? (sector.faces.size() > most_drawn_faces / 3 ? 1 : 3) : 5;
   const Mesh mesh = wanted == 1 ? sector : geometry::repeat(sector, problem.pair.wheel().teeth(), wanted);
   const auto held = held_boundary(problem);
-  const Eigen::Matrix3d axes = eye_axes(TeethSide::inside) / units::mm;
+  const Eigen::Matrix3d axes = eye_axes() / units::mm;
   const Eigen::Vector3d lamp = Eigen::Vector3d(-0.6, 0.5, 1).normalized();
   FacetPicture picture{.label = "mesh", .edge = "#5a6a78", .edge_width = 0.0005};
   for (const auto& face : mesh.faces) {
