@@ -30,6 +30,12 @@ double largest_difference(const StiffnessCycle& cycle, const StiffnessCycle& tru
   return largest;
 }
 
+/// Whether the wanted accuracy covers the error of a result at this point.
+bool is_covered(const TradeFigure& figure, const TradePoint& point) {
+  return figure.guarantee == Guarantee::always ||
+         (figure.guarantee == Guarantee::while_in_contact && !(point.contact_loss > 0));
+}
+
 }  // namespace
 
 FigureSet trade_figures(const MeshResult& mesh) {
@@ -120,12 +126,20 @@ std::vector<const TradePoint*> VariantTrade::of(TradePart part) const {
 const TradeValue* VariantTrade::worst_guaranteed(const TradePoint& point) const {
   const TradeValue* worst = nullptr;
   for (const auto& figure : figures) {
-    const bool covered = figure.guarantee == Guarantee::always ||
-                         (figure.guarantee == Guarantee::while_in_contact && !(point.contact_loss > 0));
     const auto* value = point.find(figure.key);
-    if (covered && value && std::isfinite(value->error) && (!worst || value->error > worst->error)) worst = value;
+    if (is_covered(figure, point) && value && std::isfinite(value->error) && (!worst || value->error > worst->error))
+      worst = value;
   }
   return worst;
+}
+
+std::vector<const TradeValue*> VariantTrade::not_guaranteed(const TradePoint& point) const {
+  std::vector<const TradeValue*> list;
+  for (const auto& figure : figures) {
+    const auto* value = point.find(figure.key);
+    if (!is_covered(figure, point) && value && std::isfinite(value->error)) list.push_back(value);
+  }
+  return list;
 }
 
 double VariantTrade::guaranteed_error(const TradePoint& point) const {

@@ -46,8 +46,12 @@ std::string planned_text(const VariantTrade& variant, const TradePoint& p) {
   const std::string text = fmt::format("The planner for {}: ", percent(*p.planned_for));
   if (!p.failure.empty()) return text + p.failure;
   const auto* worst = variant.worst_guaranteed(p);
-  return text + fmt::format("{}, {:.0f} MB; errors up to {}{}.", duration_text(p.cost.wall), p.cost.peak_memory_MB,
-                            percent(variant.guaranteed_error(p)), worst ? " (" + variant.title(worst->key) + ")" : "");
+  std::string others;
+  for (const auto* value : variant.not_guaranteed(p))
+    others += fmt::format("{}{} {}", others.empty() ? "" : ", ", variant.title(value->key), percent(value->error));
+  return text + fmt::format("{}, {:.0f} MB; errors up to {}{}.{}", duration_text(p.cost.wall), p.cost.peak_memory_MB,
+                            percent(variant.guaranteed_error(p)), worst ? " (" + variant.title(worst->key) + ")" : "",
+                            others.empty() ? "" : " Not covered by the accuracy: " + others + ".");
 }
 
 /// Both for all accuracies.

@@ -3,10 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <utility>
 
 #include "app/model/gear_system.h"
 #include "app/model/table_errors.h"
+#include "app/plan/cost_plan.h"
+#include "app/process/progress.h"
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
 #include "app/scene/overrides.h"
@@ -68,6 +74,34 @@ std::vector<const MeshResult*> pointers(const std::vector<MeshResult>& tables) {
   return list;
 }
 
+/// One setting to be measured.
+struct TradeStep {
+  std::string what;
+  double predicted = 0;  ///< s; all zero where the cost is not known
+  std::function<TradePoint()> measure;
+};
+
+/// Measures them one after the other. Before each it states the number of the step and, from what the steps before took
+/// of their predictions, the time left.
+std::vector<TradePoint> measured_one_by_one(const std::string& name, const std::vector<TradeStep>& steps) {
+  std::vector<TradePoint> points;
+  double total = 0, done = 0;
+  for (const auto& step : steps) total += step.predicted;
+  const auto share = [&](const TradeStep& step) {
+    return total > 0 ? step.predicted / total : 1.0 / static_cast<double>(steps.size());
+  };
+  const auto start = std::chrono::steady_clock::now();
+  for (const auto& step : steps) {
+    const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double left = time_left(done, passed, total);
+    log::info(fmt::format("tradeoff of '{}': {} ({} of {}{})", name, step.what, points.size() + 1, steps.size(),
+                          std::isfinite(left) ? ", about " + duration_text(left) + " left" : ""));
+    points.push_back(step.measure());
+    done += share(step);
+  }
+  return points;
+}
+
 /// Everything that is tried on one variant. Where a stiffness is prescribed, the motion alone.
 class Measurement {
  public:
@@ -85,30 +119,21 @@ class Measurement {
 
   VariantTrade run() {
     VariantTrade trade{.name = system_.title(variant_), .figures = figures_, .points = {}};
-    const auto announce = [&](const std::string& what) {
-      log::info(fmt::format("tradeoff of '{}': {}", trade.name, what));
-    };
     if (!all_computed(meshes_)) {
       finest_ = tables_as_they_are(root() / trade.name / "tables");
     } else {
-      const auto solid = need_solid();
-      for (const auto& setting :
-           lists_.mesh(meshes_.back(), std::find(solid.begin(), solid.end(), true) != solid.end())) {
-        announce(fmt::format("{}, {}", fidelity_name(setting.fidelity), setting.text()));
-        trade.points.push_back(mesh_point(setting, solid));
-      }
-      for (const double accuracy : lists_.accuracies) {
-        announce(fmt::format("as planned for {:g} %", 100 * accuracy));
-        trade.points.push_back(planned_point(accuracy));
-      }
+      trade.points = measured_one_by_one(trade.name, mesh_steps());
       trade.compare_with_finest(TradePart::mesh);
     }
     if (!lists_.motions || !scene_.dynamics || !finest_) return trade;
     couple(*finest_, root() / trade.name / "coupling");
+    std::vector<TradeStep> steps;
     for (auto& way : system_.ways(variant_, pointers(*finest_)).others) {
-      announce(way.fidelity + ", " + way.settings);
-      trade.points.push_back(motion_point(std::move(way)));
+      const auto what = way.fidelity + ", " + way.settings;
+      steps.push_back({what, 0, [this, way = std::move(way)] { return motion_point(way); }});
     }
+    auto motions = measured_one_by_one(trade.name, steps);
+    std::move(motions.begin(), motions.end(), std::back_inserter(trade.points));
     trade.compare_with_finest(TradePart::dynamics);
     return trade;
   }
@@ -186,14 +211,40 @@ class Measurement {
     return result;
   }
 
+  /// s, of solving these meshes.
+  [[nodiscard]] double predicted(const std::vector<MeshModel>& models) const {
+    double seconds = 0;
+    for (const auto& model : models)
+      if (model.computed()) seconds += predicted_cost(mesh_size(model), options_.threads).seconds;
+    return seconds;
+  }
+
+  [[nodiscard]] std::vector<MeshModel> applied(const MeshSetting& setting, const std::vector<bool>& need_solid) const {
+    std::vector<MeshModel> models;
+    for (std::size_t i = 0; i < meshes_.size(); ++i) models.push_back(setting.applied(meshes_[i], need_solid[i]));
+    return models;
+  }
+
+  [[nodiscard]] std::vector<TradeStep> mesh_steps() {
+    const auto solid = need_solid();
+    std::vector<TradeStep> steps;
+    const bool any_solid = std::find(solid.begin(), solid.end(), true) != solid.end();
+    for (const auto& setting : lists_.mesh(meshes_.back(), any_solid))
+      steps.push_back({fmt::format("{}, {}", fidelity_name(setting.fidelity), setting.text()),
+                       predicted(applied(setting, solid)),
+                       [this, setting, solid] { return mesh_point(setting, solid); }});
+    for (const double accuracy : lists_.accuracies)
+      steps.push_back({fmt::format("as planned for {:g} %", 100 * accuracy), predicted(meshes_),
+                       [this, accuracy] { return planned_point(accuracy); }});
+    return steps;
+  }
+
   TradePoint mesh_point(const MeshSetting& setting, const std::vector<bool>& need_solid) {
     TradePoint point{.fidelity = fidelity_name(setting.fidelity),
                      .settings = setting.text(),
                      .finest = setting.finest,
                      .mesh = setting};
-    std::vector<MeshModel> models;
-    for (std::size_t i = 0; i < meshes_.size(); ++i) models.push_back(setting.applied(meshes_[i], need_solid[i]));
-    measure(models, setting.folder(), point);
+    measure(applied(setting, need_solid), setting.folder(), point);
     return point;
   }
 

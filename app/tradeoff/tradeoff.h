@@ -85,6 +85,8 @@ struct VariantTrade {
   /// The largest error of the results that the wanted accuracy covers, and which one it is. NaN for a failure.
   [[nodiscard]] double guaranteed_error(const TradePoint& point) const;
   [[nodiscard]] const TradeValue* worst_guaranteed(const TradePoint& point) const;
+  /// The results with a known error that the wanted accuracy does not cover.
+  [[nodiscard]] std::vector<const TradeValue*> not_guaranteed(const TradePoint& point) const;
   /// What the program states of the stiffness: the largest estimate of the tables' entries. NaN for a failure.
   [[nodiscard]] double stiffness_estimate(const TradePoint& point) const;
   /// The cheapest fixed setting of a part by wall time whose error (of one result, or the largest) is within the
