@@ -223,12 +223,18 @@ std::string scripts(const std::vector<const char*>& libraries, const char* own, 
 }
 
 /// What a reader may choose, by name; nothing when there is one.
-std::string choice_html(const char* key, const char* what, const std::vector<std::string>& names) {
-  if (names.size() < 2) return {};
+struct PageChoice {
+  const char *key, *what;
+  const std::vector<std::string>& names;
+  bool all_first = false;  ///< else the first of them is shown at the beginning
+};
+std::string choice_html(const PageChoice& choice) {
+  if (choice.names.size() < 2) return {};
+  constexpr const char* all = "<option value=\"\">all</option>";
   std::string options;
-  for (const auto& name : names) options += fmt::format("<option value=\"{0}\">{0}</option>", escape(name));
-  return fmt::format("<label>{} <select data-choose=\"{}\">{}<option value=\"\">all</option></select></label>", what,
-                     key, options);
+  for (const auto& name : choice.names) options += fmt::format("<option value=\"{0}\">{0}</option>", escape(name));
+  options = choice.all_first ? all + options : options + all;
+  return fmt::format("<label>{} <select data-choose=\"{}\">{}</select></label>", choice.what, choice.key, options);
 }
 
 std::string section_html(const Section& section, const std::string& blocks) {
@@ -272,11 +278,12 @@ RenderedPage rendered(const Page& page) {
   if (writer.packs && writer.has_views)
     script += scripts({ANNULUS_THREE_JS, ANNULUS_ORBIT_JS}, view3d_script, "libjs-three");
   if (writer.packs) script += "<script>annulus.begin();</script>\n";
-  return {fmt::format(
-              fmt::runtime(page_template), fmt::arg("title", escape(page.title)), fmt::arg("style", page_style),
-              fmt::arg("sub", html(page.sub)), fmt::arg("summary", summary), fmt::arg("links", links),
-              fmt::arg("choices", choice_html("ring", "Ring", page.rings) + choice_html("mesh", "Mesh", page.meshes)),
-              fmt::arg("sections", sections), fmt::arg("scripts", script)),
+  return {fmt::format(fmt::runtime(page_template), fmt::arg("title", escape(page.title)), fmt::arg("style", page_style),
+                      fmt::arg("sub", html(page.sub)), fmt::arg("summary", summary), fmt::arg("links", links),
+                      fmt::arg("choices", choice_html({"ring", "Ring", page.rings}) +
+                                              choice_html({"mesh", "Mesh", page.meshes}) +
+                                              choice_html({"line", "Planet", page.lines, true})),
+                      fmt::arg("sections", sections), fmt::arg("scripts", script)),
           std::move(writer.pictures)};
 }
 

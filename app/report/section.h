@@ -125,6 +125,7 @@ struct Page {
   Blocks summary{};
   std::vector<Section> sections{};
   std::vector<std::string> rings{}, meshes{};  ///< to choose from; a single one needs no choice
+  std::vector<std::string> lines{};            ///< labels of lines to choose from, such as those of the planets
 };
 
 }  // namespace annulus::app

@@ -229,6 +229,7 @@ Page run_page(const SystemRun& run, const RunPage& page) {
   }
   for (const auto& variant : run.variants()) made.rings.push_back(variant.name);
   made.meshes = page.choices;
+  made.lines = page.lines;
   return made;
 }
 

@@ -182,6 +182,19 @@ window.addEventListener('load', async () => {
       select.dispatchEvent(new Event('change'));
     }
     expect(document.querySelectorAll('script.picture').length === 0, 'pictures are still packed');
+    // One planet alone, in pictures; then all again.
+    const planet = document.querySelector('select[data-choose=line]');
+    if (planet) {
+      const shown = () => [...document.querySelectorAll('[data-line^="planet "]')].filter((g) => g.style.display !== 'none');
+      const all = shown().length;
+      planet.value = 'planet 2';
+      planet.dispatchEvent(new Event('change'));
+      const left = shown();
+      result.one_planet = left.length > 0 && left.length < all && left.every((g) => g.dataset.line === 'planet 2');
+      planet.value = '';
+      planet.dispatchEvent(new Event('change'));
+      expect(shown().length === all, 'planets do not come back');
+    }
     result.cropped = croppedWords();
     if (window.check_access) result.inaccessible = await inaccessible();
     for (const box of document.querySelectorAll('.plot')) usePlot(box);

@@ -74,6 +74,7 @@ BOOST_AUTO_TEST_CASE(every_plot_of_a_stage_can_be_used) {
   check_used(used, 15);
 
   BOOST_TEST(used["bars"].get<int>() >= 1);  // the answer
+  BOOST_TEST(used["one_planet"].get<bool>());
 
   // Ring, sun, five planets and as many carrier arms of every mode shape.
   BOOST_TEST(used["swinging"].get<int>() >= 2 * 12);

@@ -17,6 +17,20 @@ const annulus = (() => {
         box.made = true;
         make(box);
       }
+    showLines(part);
+  }
+
+  /// The line a reader chose by its name, and the names to choose from.
+  function chosenLine() {
+    const select = document.querySelector('select[data-choose=line]');
+    return {line: select ? select.value : '', names: select ? [...select.options].map((o) => o.value).filter(Boolean) : []};
+  }
+
+  /// Of lines with a name to choose from, the chosen one.
+  function showLines(part) {
+    const {line, names} = chosenLine();
+    for (const mark of part.querySelectorAll('[data-line]'))
+      if (names.includes(mark.dataset.line)) mark.style.display = line && mark.dataset.line !== line ? 'none' : '';
   }
 
   function open(fold) {
@@ -37,6 +51,8 @@ const annulus = (() => {
     const chosen = [...document.querySelectorAll('select[data-choose]')].map((s) => [s.dataset.choose, s.value]);
     for (const picture of document.querySelectorAll('[data-ring], [data-mesh]'))
       picture.hidden = chosen.some(([what, value]) => value && picture.dataset[what] && picture.dataset[what] !== value);
+    showLines(document);
+    window.dispatchEvent(new Event('annulus:lines'));
     window.dispatchEvent(new Event('resize'));
   }
 
@@ -67,5 +83,5 @@ const annulus = (() => {
     reveal();
   }
 
-  return {make: (selector, make) => makers.push({selector, make}), numbers, show, open, begin};
+  return {make: (selector, make) => makers.push({selector, make}), numbers, show, open, begin, chosenLine};
 })();

@@ -156,6 +156,17 @@
     },
   };
 
+  /// As in the picture: of lines with a name to choose from, the chosen one.
+  function showLines(chart) {
+    const {line, names} = annulus.chosenLine(), {datasets} = chart.data;
+    const nameOf = (set) => set.label || (datasets.find((s) => s.group === set.group && s.label) || {}).label;
+    datasets.forEach((set, i) => {
+      const name = nameOf(set);
+      if (names.includes(name)) chart.setDatasetVisibility(i, !line || name === line);
+    });
+    chart.update();
+  }
+
   function makeChart(canvas, plot, panel) {
     const axes = () => ({x: axis(panel.x), y: axis(panel.y)}), sets = datasets(plot, panel), title = panel.title || plot.title;
     return new Chart(canvas, {
@@ -208,6 +219,10 @@
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   }
 
+  window.addEventListener('annulus:lines', () => {
+    for (const box of document.querySelectorAll('.plot')) (box.charts || []).forEach(showLines);
+  });
+
   annulus.make('.plot', (box) => {
     const plot = annulus.numbers(box);
     const svg = box.querySelector('svg');
@@ -233,6 +248,7 @@
       if (plot.scale) box.insertBefore(scaleBar(plot.scale), svg);
       box.classList.add('awake');
       box.charts = width > 0 ? canvases.map((canvas, i) => makeChart(canvas, plot, plot.panels[i])) : [];
+      box.charts.forEach(showLines);
     };
     box.addEventListener('pointerenter', wake);
     box.addEventListener('focusin', wake);

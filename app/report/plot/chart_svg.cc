@@ -152,7 +152,8 @@ std::string drawn(const Frame& frame, const Mark& mark) {
                         (mark.size > 0 ? fmt::format(R"(stroke="{}" stroke-width="{}")", mark.colour, mark.size) : ""));
       break;
   }
-  return mark.in_legend ? svg::group("", text) : text;
+  // Lines of one name are shown and hidden together, whatever picture they are in.
+  return mark.label.empty() ? text : svg::group(fmt::format("data-line=\"{}\"", escape(mark.label)), text);
 }
 
 /// One path per colour; runs of equal neighbours in x joined.

@@ -38,6 +38,17 @@ Legend planet_legend(int planets) {
   return legend;
 }
 
+namespace {
+
+std::vector<std::string> planet_names(const RunResult& result) {
+  std::vector<std::string> names;
+  for (const auto& [label, colour] : planet_legend(responses_of(result).empty() ? 0 : result.scene.stage.planets))
+    names.push_back(label);
+  return names;
+}
+
+}  // namespace
+
 Page stage_report(const RunResult& result) {
   const auto& scene = result.scene;
   const auto& point = result.geometry.operating_point;
@@ -62,7 +73,8 @@ Page stage_report(const RunResult& result) {
                     modes_section(result)},
        .geometry = {drawings_section(result)},
        .checks = response_checks(result),
-       .choices = {sun_meshes, ring_meshes}});
+       .choices = {sun_meshes, ring_meshes},
+       .lines = planet_names(result)});
 }
 
 }  // namespace annulus::app
