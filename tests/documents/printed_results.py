@@ -93,16 +93,14 @@ def ring_types_uncertainty(s):
     for name, key in [("P50", "p50"), ("P95", "p95"), ("P99", "p99")]:
         rows.append(row(f"K_γ {name} of the assemblies", lambda r: s.result(r, f"load_sharing_of_assemblies_{key}")))
     varied = {i["input"]: i for i in s.at("sensitivity/inputs")}
-    names = list(s.figures)
-    traditional, thin = names.index("traditional"), names.index("thin-walled")
 
-    def both(path, digits=3):
-        i = varied[path]
+    def both(path):
         cells = []
         for key in ["load_sharing_averaged", "peak_factor"]:
-            for ring in [traditional, thin]:
-                low, high = (i[side][f"sun_planet_{key}"][ring] for side in ["divided", "multiplied"])
-                cells.append(f"{low:.{digits}f} … {high:.{digits}f}")
+            for ring in ["traditional", "thin-walled"]:
+                sides = varied[path]["rings"][ring]
+                low, high = (sides[side][f"sun_planet_{key}"] for side in ["divided", "multiplied"])
+                cells.append(f"{low:.3f} … {high:.3f}")
         return " | ".join(cells)
 
     for name, path in [
