@@ -63,7 +63,8 @@ PageTable contributions_table(const RingResult& ring) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.without.p95.value < b.without.p95.value; });
   for (const auto& c : sorted)
-    table.rows.push_back({tolerance_text(c), to_text(c.alone.p95.value, 4), to_text(c.without.p95.value, 4),
+    table.rows.push_back({tolerance_text(c), fmt::format("{:.3f}", c.alone.p95.value),
+                          fmt::format("{:.3f}", c.without.p95.value),
                           all > 1 ? fmt::format("{:.0f} %", 100 * (all - c.without.p95.value) / (all - 1)) : "–"});
   return table;
 }
