@@ -91,7 +91,8 @@ void check_deviations(const Scene& scene) {
                                  to_text(value), text, text, largest_gear_displacement, no_engagement));
   };
   for (const auto& input : scene.inputs) {
-    const bool deviation = input.key.starts_with("errors.") && input.key.ends_with("_um");
+    const bool deviation =
+        (input.key.starts_with("errors.") || input.key.starts_with("tolerances.")) && input.key.ends_with("_um");
     if (!deviation || input.key.ends_with("_misalignment_um")) continue;
     if (const auto* value = std::get_if<double>(&input.value)) check(input.key, *value);
     if (const auto* list = std::get_if<std::vector<double>>(&input.value))

@@ -6,11 +6,11 @@
 
 namespace annulus::app {
 
-namespace {
-
 Json interval_json(const dynamics::Interval& i) {
   return {{"value", json_number(i.value)}, {"low", json_number(i.low)}, {"high", json_number(i.high)}};
 }
+
+namespace {
 
 Json statistics_json(const FigureStatistics& s) {
   return {{"mean", interval_json(s.mean)},

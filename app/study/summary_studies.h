@@ -6,6 +6,7 @@
 /// The studies as JSON objects, to be merged into summary.json.
 namespace annulus::app {
 
+[[nodiscard]] Json interval_json(const dynamics::Interval& interval);
 /// "monte_carlo", "sweeps" and "grids" of one variant.
 [[nodiscard]] Json variant_studies_json(const StudyResults& studies, std::size_t variant);
 /// "monte_carlo" (orders of the variants) and "sensitivity".

@@ -53,6 +53,12 @@ StaticSolver::StaticSolver(const LumpedSystem& system)
   anchor_ = Eigen::VectorXd::Zero(meshes);
 }
 
+void StaticSolver::set_tangent(const LumpedSystem::Workspace& w) {
+  system_.tangent_matrix(w, tangent_);
+  for (int m = 0; m < forces_.size(); ++m)
+    if (is_open(system_, m, w)) tangent_(m, m) += open_share * w.stiffness[m];
+}
+
 void StaticSolver::factorise(const Eigen::MatrixXd& tangent, double t) {
   factor_.compute(base_ + vectors_ * tangent * vectors_.transpose());
   if (factor_.info() != Eigen::Success)
@@ -87,9 +93,7 @@ void StaticSolver::iterate(double t, Eigen::VectorXd& q, LumpedSystem::Workspace
   for (int step = 0; step < steps; ++step) {
     // DOF by DOF: stiff supports must not hide what light loads do elsewhere.
     if ((residual_.array().abs() <= accuracy * terms_.array()).all()) return;
-    system_.tangent_matrix(w, tangent_);
-    for (int m = 0; m < forces_.size(); ++m)
-      if (is_open(system_, m, w)) tangent_(m, m) += open_share * w.stiffness[m];
+    set_tangent(w);
     factorise(tangent_, t);
     const Eigen::VectorXd direction = factor_.solve(residual_), from = q;
     // The potential is convex along the step: halving it until its slope is no steeper than at the start ends soon.
@@ -165,14 +169,10 @@ Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
   throw SolverError(fmt::format("no consistent contact state in {} attempts at t = {:g} s (quasi-static)", tries, t));
 }
 
-Eigen::MatrixXd StaticSolver::force_per_error() const {
-  const Eigen::MatrixXd meshes = mesh_stiffness_matrix(system_, mean_tangents(system_)), b = system_.mesh_vectors();
-  const Eigen::LLT<Eigen::MatrixXd> factor(base_ + b * meshes * b.transpose());
-  if (factor.info() != Eigen::Success)
-    throw SolverError(
-        "the static stiffness at the mean mesh stiffnesses is not positive: a degree of freedom has no "
-        "support");
-  return meshes * b.transpose() * factor.solve(b * meshes) - meshes;
+Eigen::MatrixXd StaticSolver::force_per_error(const LumpedSystem::Workspace& w) {
+  set_tangent(w);
+  factorise(tangent_, w.time);
+  return tangent_ * vectors_.transpose() * factor_.solve(vectors_ * tangent_) - tangent_;
 }
 
 StaticPath static_path(const LumpedSystem& system, const Eigen::VectorXd& times) {

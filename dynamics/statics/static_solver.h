@@ -22,9 +22,9 @@ class StaticSolver {
   /// the contact state or, with a law, the equilibrium is not found.
   [[nodiscard]] Eigen::VectorXd solve(double t, LumpedSystem::Workspace& workspace);
 
-  /// d forces / d errors of the meshes, N/m, meshes x meshes: every mesh in contact, with its mean tangent stiffness
-  /// and its mesh vector at time 0. Throws SolverError where this stiffness is not positive.
-  [[nodiscard]] Eigen::MatrixXd force_per_error() const;
+  /// d forces / d errors of the meshes at the solution that `solve` has just left in `workspace`, N/m, meshes x meshes.
+  /// Throws SolverError where the stiffness is not positive.
+  [[nodiscard]] Eigen::MatrixXd force_per_error(const LumpedSystem::Workspace& workspace);
 
  private:
   /// Equilibrium in the held contact state: one Newton step for linear meshes, a few steps with a law.
@@ -32,6 +32,8 @@ class StaticSolver {
   /// f - K q - sum b F at q, and the size of its terms (the scale of its rounding). Evaluates the meshes.
   double residual(double t, const Eigen::VectorXd& q, LumpedSystem::Workspace& workspace);
   void factorise(const Eigen::MatrixXd& tangent, double t);
+  /// Tangents of the meshes at the last evaluation, with the springs of open ones, into `tangent_`.
+  void set_tangent(const LumpedSystem::Workspace& workspace);
 
   const LumpedSystem& system_;
   Eigen::MatrixXd base_, vectors_;  // K with rigid motions fixed; mesh vectors b at the time as columns

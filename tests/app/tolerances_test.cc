@@ -95,6 +95,9 @@ BOOST_AUTO_TEST_CASE(bad_tolerances_are_refused) {
   BOOST_TEST(message_of(scene + "[tolerances]\naccuracy_class = 12\n").find("12") != std::string::npos);
   BOOST_TEST(message_of(scene + "[tolerances]\naccuracy_class = 6\nassemblies = 5\n").find("100") != std::string::npos);
   BOOST_TEST(message_of(scene + table) == "");
+  // Found by `check`, before anything is solved.
+  BOOST_TEST(message_of(scene + "[tolerances]\nplanet_pin_position_um = 9000\n").find("of the module") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

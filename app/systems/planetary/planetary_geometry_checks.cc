@@ -7,6 +7,7 @@
 #include "app/scene/model_limits.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/ring_structures.h"
+#include "app/systems/planetary/tolerance_sharing.h"
 #include "core/errors.h"
 #include "core/units.h"
 #include "fem/problem/problem_check.h"
@@ -85,6 +86,7 @@ void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry) 
     for (const auto* mesh : {&scene.sun_planet, &scene.ring_planet})
       check_prescribed_mesh(scene, load, *mesh, mesh_force);
   }
+  for (std::size_t i = 0; scene.tolerances && i < scene.rings.size(); ++i) (void)stage_tolerances(scene, geometry, i);
   if (sun || ring) check_load(scene, load, mesh_force);
   for (std::size_t i = 0; i < scene.rings.size(); ++i) check_ring_supports(scene, geometry, i);
 }

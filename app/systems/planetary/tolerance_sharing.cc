@@ -13,6 +13,7 @@
 #include "app/model/run_options.h"
 #include "app/results/cached_value.h"
 #include "app/results/program_identity.h"
+#include "app/study/summary_studies.h"
 #include "app/systems/planetary/stage_members.h"
 #include "core/csv.h"
 #include "core/log.h"
@@ -37,19 +38,19 @@ constexpr std::array<NamedQuantile, 3> named_quantiles = {{{"p50", "P50", &Shari
                                                            {"p95", "P95", &SharingQuantiles::p95},
                                                            {"p99", "P99", &SharingQuantiles::p99}}};
 
-double runout(const geometry::Gear& gear, const std::optional<double>& given, const std::optional<int>& flank_class) {
+double runout(const std::string& name, const geometry::Gear& gear, const std::optional<double>& given,
+              const std::optional<int>& flank_class) {
   if (given) return *given;
   if (!flank_class) return 0;
-  return geometry::runout_tolerance({.teeth = gear.teeth(),
-                                     .module = gear.transverse_module() * std::cos(gear.helix_angle()),
-                                     .reference_diameter = 2 * gear.reference_radius(),
-                                     .helix_angle = gear.helix_angle()},
-                                    *flank_class);
-}
-
-Json interval_json(const Interval& interval) {
-  return {
-      {"value", json_number(interval.value)}, {"low", json_number(interval.low)}, {"high", json_number(interval.high)}};
+  return geometry_of(
+      fmt::format("tolerances.accuracy_class = {}: {}; give tolerances.{}_runout_um instead", *flank_class, name, name),
+      [&] {
+        return geometry::runout_tolerance({.teeth = gear.teeth(),
+                                           .module = gear.transverse_module() * std::cos(gear.helix_angle()),
+                                           .reference_diameter = 2 * gear.reference_radius(),
+                                           .helix_angle = gear.helix_angle()},
+                                          *flank_class);
+      });
 }
 
 Json quantiles_json(const SharingQuantiles& quantiles) {
@@ -113,9 +114,9 @@ dynamics::StageTolerances stage_tolerances(const Scene& scene, const GearGeometr
   const auto& set = geometry.rings.at(ring).set;
   dynamics::StageTolerances zones;
   zones.planet_pin_position = t.planet_pin_position.value_or(0) / 2;
-  zones.sun_eccentricity = runout(set.sun(), t.sun_runout, t.accuracy_class) / 2;
-  zones.planet_eccentricity = runout(set.planet(), t.planet_runout, t.accuracy_class) / 2;
-  zones.ring_eccentricity = runout(set.ring(), t.ring_runout, t.accuracy_class) / 2;
+  zones.sun_eccentricity = runout("sun", set.sun(), t.sun_runout, t.accuracy_class) / 2;
+  zones.planet_eccentricity = runout("planet", set.planet(), t.planet_runout, t.accuracy_class) / 2;
+  zones.ring_eccentricity = runout("ring", set.ring(), t.ring_runout, t.accuracy_class) / 2;
   zones.within = t.distribution == ToleranceLaw::normal ? dynamics::WithinZone::normal : dynamics::WithinZone::uniform;
   return zones;
 }
@@ -146,15 +147,15 @@ std::optional<ToleranceSharing> tolerance_sharing(const Scene& scene, const Gear
   save(sharing, stage.sun_torque, id, options.out / name / "dynamics");
   log::info(fmt::format("load sharing of '{}' within the tolerances: {}", name,
                         reused ? "unchanged, reused" : fmt::format("{} assemblies", t.assemblies)));
-  const auto relative = [](const MeshResult& mesh) { return mesh.mean_stiffness().error_relative; };
-  return ToleranceSharing{std::move(sharing), std::max(relative(sun_mesh), relative(ring_mesh))};
+  const double sun = sun_mesh.mean_stiffness().error_relative, wheel = ring_mesh.mean_stiffness().error_relative;
+  return ToleranceSharing{std::move(sharing), std::isnan(sun + wheel) ? not_known : std::max(sun, wheel)};
 }
 
 double tolerance_seconds(const Scene& scene) {
   if (!scene.tolerances) return 0;
   const auto& t = *scene.tolerances;
-  // Equilibria: those of every torque, then each tolerance alone and left out at one torque. Time by the number of
-  // degrees of freedom cubed and of meshes, measured on stages of 3 to 6 planets.
+  // Equilibria: those of every torque, then each tolerance alone and left out at one torque. The time of one is that of
+  // the demo with five planets; others by the number of candidates and of unknowns.
   const double planets = scene.stage.planets, torques = static_cast<double>(t.torque_shares.size()) + 1;
   const int tolerances = (t.planet_pin_position.value_or(0) > 0 ? 1 : 0) + (t.accuracy_class || t.sun_runout ? 1 : 0) +
                          (t.accuracy_class || t.planet_runout ? 1 : 0) + (t.accuracy_class || t.ring_runout ? 1 : 0);
@@ -168,7 +169,6 @@ const std::vector<FigureSpec>& tolerance_figures() {
     for (const auto& q : named_quantiles)
       specs.push_back({.key = fmt::format("load_sharing_of_assemblies_{}", q.name),
                        .title = fmt::format("Load sharing of assemblies within the tolerances, {}", q.symbol),
-
                        .axis = "N |F| / Σ|F|",
                        .definition = "quantile over assemblies of the quasi-static load-sharing factor, averaged over "
                                      "a mesh cycle, largest over the error period",

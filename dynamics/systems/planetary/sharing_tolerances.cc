@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -45,41 +46,75 @@ Deviation drawn(WithinZone within, double radius, std::uint64_t seed, int assemb
           2 * std::numbers::pi * uniform_draw(seed, sample, name + " direction")};
 }
 
+constexpr int positions = 16;  ///< per mesh cycle
+
+PlanetaryStage at_share(PlanetaryStage stage, double share) {
+  stage.sun_torque *= share;
+  return stage;
+}
+
+PlanetaryStage without_errors(PlanetaryStage stage) {
+  stage.sun.errors = stage.ring.errors = stage.carrier.errors = {};
+  stage.planet_errors.clear();
+  return stage;
+}
+
+/// A stage without errors at one torque, mesh cycle by mesh cycle until they repeat: a ring on pins is stiffer at some
+/// teeth than at others.
+struct PerfectStage {
+  explicit PerfectStage(const PlanetaryStage& stage) {
+    const auto perfect = without_errors(stage);
+    const auto system = assemble(perfect);
+    StaticSolver solver(system);
+    auto workspace = system.workspace();
+    const Eigen::Index planets = perfect.planets();
+    for (int cycle = 0; cycle < perfect.error_period(); ++cycle) {
+      auto& mean = force.emplace_back(Eigen::VectorXd::Zero(planets));
+      auto& response = per_error.emplace_back(Eigen::MatrixXd::Zero(planets, 2 * planets));
+      for (int p = 0; p < positions; ++p) {
+        (void)solver.solve((cycle + static_cast<double>(p) / positions) / perfect.mesh_frequency(), workspace);
+        mean += Eigen::Map<const Eigen::VectorXd>(workspace.force.data(), planets) / positions;
+        response += solver.force_per_error(workspace).topRows(planets) / positions;
+      }
+    }
+  }
+  std::vector<Eigen::VectorXd> force;      ///< N, of the sun meshes, averaged over each mesh cycle
+  std::vector<Eigen::MatrixXd> per_error;  ///< N/m, d of it / d errors of all meshes
+};
+
 /// The force of every sun mesh over the mesh cycles of the error period, linear in the errors: a sum of terms that
-/// repeat after as many cycles as a gear has teeth.
+/// repeat after as many cycles as a gear has teeth, or a few times as many.
 class LinearForces {
  public:
-  explicit LinearForces(const PlanetaryStage& stage, const LumpedSystem& system, const StaticSolver& solver)
+  LinearForces(const PerfectStage& perfect, const PlanetaryStage& stage)
       : cycles_(std::min(stage.error_period(), most_cycles)) {
-    const Eigen::Index planets = stage.planets();
+    const auto planets = static_cast<std::size_t>(stage.planets());
     const double frequency = stage.mesh_frequency();
     std::map<double, Eigen::VectorXcd> by_rate;
-    const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
-    for (Eigen::Index m = 0; m < meshes; ++m)
-      for (const auto& error : system.meshes()[static_cast<std::size_t>(m)].errors) {
-        auto& amplitudes = by_rate.try_emplace(error.rate, Eigen::VectorXcd::Zero(meshes)).first->second;
-        amplitudes[m] += std::polar(error.amount, error.phase);
-      }
-    const Eigen::MatrixXd response = solver.force_per_error();
-    constant_ = Eigen::VectorXd::Constant(planets, stage.mean_mesh_force());
+    by_rate.try_emplace(0, Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(2 * planets)));
+    for (std::size_t m = 0; m < 2 * planets; ++m) {
+      const auto errors = m < planets ? sun_mesh_errors(stage, static_cast<int>(m))
+                                      : ring_mesh_errors(stage, static_cast<int>(m - planets));
+      for (const auto& error : errors)
+        by_rate.try_emplace(error.rate, Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(2 * planets)))
+            .first->second[static_cast<Eigen::Index>(m)] += std::polar(error.amount, error.phase);
+    }
+    const auto repeat = static_cast<long>(perfect.force.size());
     for (const auto& [rate, amplitudes] : by_rate) {
-      const Eigen::VectorXcd force = (response * amplitudes).head(planets);
-      if (rate == 0) {
-        constant_ += force.imag();
-        continue;
+      const long own = rate == 0 ? 1 : std::lround(2 * std::numbers::pi * frequency / std::abs(rate));
+      auto& term = terms_.emplace_back(stage.planets(), std::lcm(repeat, std::max(1L, own)));
+      for (long c = 0; c < term.cols(); ++c) {
+        const auto turn = std::polar(1.0, rate * (static_cast<double>(c) + 0.5) / frequency);
+        term.col(c) = perfect.per_error[static_cast<std::size_t>(c % repeat)] * (amplitudes * turn).imag();
+        if (rate == 0) term.col(c) += perfect.force[static_cast<std::size_t>(c % repeat)];
       }
-      const auto period = std::max(1L, std::lround(2 * std::numbers::pi * frequency / std::abs(rate)));
-      auto& term = terms_.emplace_back(planets, period);
-      for (long c = 0; c < period; ++c)
-        term.col(c) = (force * std::polar(1.0, rate * (static_cast<double>(c) + 0.5) / frequency)).imag();
     }
   }
 
   /// For each planet the mesh cycle in which it carries most, and that in which it carries the largest part of what
   /// pushing meshes carry together, without repetitions.
   [[nodiscard]] std::set<int> worst_cycles() const {
-    if (terms_.empty()) return {0};
-    const auto planets = static_cast<std::size_t>(constant_.size());
+    const auto planets = static_cast<std::size_t>(terms_.front().rows());
     struct Worst {
       double value = -std::numeric_limits<double>::infinity();
       int cycle = 0;
@@ -88,7 +123,7 @@ class LinearForces {
     std::vector<Eigen::Index> at(terms_.size(), 0);
     Eigen::VectorXd force;
     for (int c = 0; c < cycles_; ++c) {
-      force = constant_;
+      force.setZero(terms_.front().rows());
       for (std::size_t k = 0; k < terms_.size(); ++k) {
         force += terms_[k].col(at[k]);
         if (++at[k] == terms_[k].cols()) at[k] = 0;
@@ -107,10 +142,10 @@ class LinearForces {
   }
 
  private:
-  /// Of a longer error period the first part: it comes as near to every combination of directions as matters.
+  /// Of a longer error period the first part. Three directions that turn then meet within 1/58 of a circle, where a
+  /// cosine is 0.15 % below its largest value.
   static constexpr int most_cycles = 200000;
   int cycles_;
-  Eigen::VectorXd constant_;
   std::vector<Eigen::MatrixXd> terms_;
 };
 
@@ -125,13 +160,39 @@ PlanetaryStage without_drawn(PlanetaryStage stage, const StageTolerances& tolera
   return stage;
 }
 
-PlanetaryStage at_share(PlanetaryStage stage, double share) {
-  stage.sun_torque *= share;
-  return stage;
-}
-
 SharingQuantiles quantiles_of(const std::vector<double>& factors) {
   return {quantile_interval(factors, 0.5), quantile_interval(factors, 0.95), quantile_interval(factors, 0.99)};
+}
+
+/// By torque share.
+std::vector<PerfectStage> perfect_stages(const PlanetaryStage& stage, const std::vector<double>& torque_shares) {
+  std::vector<PerfectStage> list;
+  for (const double share : torque_shares) list.emplace_back(at_share(stage, share));
+  return list;
+}
+
+ErrorPeriodSharing sharing_of(const std::vector<PerfectStage>& perfect, const PlanetaryStage& stage,
+                              const std::vector<double>& torque_shares) {
+  ErrorPeriodSharing result;
+  const Eigen::Index planets = stage.planets();
+  for (std::size_t s = 0; s < torque_shares.size(); ++s) {
+    const auto system = assemble(at_share(stage, torque_shares[s]));
+    StaticSolver solver(system);
+    auto workspace = system.workspace();
+    double largest = 0;
+    for (const int cycle : LinearForces(perfect[s], stage).worst_cycles()) {
+      Eigen::VectorXd mean = Eigen::VectorXd::Zero(planets);
+      for (int p = 0; p < positions; ++p) {
+        (void)solver.solve((cycle + static_cast<double>(p) / positions) / stage.mesh_frequency(), workspace);
+        mean += Eigen::Map<const Eigen::VectorXd>(workspace.force.data(), planets) / positions;
+      }
+      const Eigen::VectorXd force = mean.cwiseAbs();
+      largest = std::max(largest, static_cast<double>(planets) * force.maxCoeff() / force.sum());
+      result.largest_force = std::max(result.largest_force, force.maxCoeff());
+    }
+    result.factors.push_back(largest);
+  }
+  return result;
 }
 
 /// K_γ of all assemblies, [torque share][assembly].
@@ -144,10 +205,11 @@ Drawn draw_all(const PlanetaryStage& stage, const StageTolerances& tolerances, c
   const auto count = static_cast<std::size_t>(options.assemblies);
   Drawn result{std::vector(shares.size(), std::vector<double>(count))};
   std::vector<double> forces(count);
+  const auto perfect = perfect_stages(stage, shares);
   for_each_task(count, options.threads, [&](std::size_t i) {
     try {
       const auto assembly = drawn_assembly(stage, tolerances, options.seed, static_cast<int>(i));
-      const auto sharing = error_period_sharing(assembly, shares);
+      const auto sharing = sharing_of(perfect, assembly, shares);
       for (std::size_t s = 0; s < shares.size(); ++s) result.factors[s][i] = sharing.factors[s];
       forces[i] = sharing.largest_force;
     } catch (const SolverError& error) {
@@ -178,29 +240,7 @@ PlanetaryStage drawn_assembly(const PlanetaryStage& stage, const StageTolerances
 }
 
 ErrorPeriodSharing error_period_sharing(const PlanetaryStage& stage, const std::vector<double>& torque_shares) {
-  constexpr int positions = 16;
-  ErrorPeriodSharing result;
-  const Eigen::Index planets = stage.planets();
-  for (const double share : torque_shares) {
-    const auto loaded = at_share(stage, share);
-    const auto system = assemble(loaded);
-    StaticSolver solver(system);
-    const auto cycles = LinearForces(loaded, system, solver).worst_cycles();
-    auto workspace = system.workspace();
-    double largest = 0;
-    for (const int cycle : cycles) {
-      Eigen::VectorXd mean = Eigen::VectorXd::Zero(planets);
-      for (int p = 0; p < positions; ++p) {
-        (void)solver.solve((cycle + static_cast<double>(p) / positions) / stage.mesh_frequency(), workspace);
-        mean += Eigen::Map<const Eigen::VectorXd>(workspace.force.data(), planets) / positions;
-      }
-      const Eigen::VectorXd force = mean.cwiseAbs();
-      largest = std::max(largest, static_cast<double>(planets) * force.maxCoeff() / force.sum());
-      result.largest_force = std::max(result.largest_force, force.maxCoeff());
-    }
-    result.factors.push_back(largest);
-  }
-  return result;
+  return sharing_of(perfect_stages(stage, torque_shares), stage, torque_shares);
 }
 
 std::size_t AssemblySharing::nominal() const {

@@ -77,12 +77,11 @@ Section tolerances_section(const RunResult& result) {
   if (!result.scene.tolerances || responses_of(result).empty()) return section;
   const auto& t = *result.scene.tolerances;
   const auto tabulated = tabulated_sharing(result.scene.stage.planets);
-  section.blocks = paragraph(
-      fmt::format("{} assemblies (seed {}), {} within their zones, in quasi-static equilibrium. K_γ is the largest "
-                  "over planets and "
-                  "error period, the forces averaged over a mesh cycle. {} % of the assemblies stay below P95.",
-                  t.assemblies, t.seed,
-                  t.distribution == ToleranceLaw::normal ? "normally distributed" : "uniformly distributed", 95));
+  section.blocks = paragraph(fmt::format(
+      "{} assemblies (seed {}), {} distributed within their zones, in quasi-static equilibrium. K_γ is the largest "
+      "over "
+      "planets and error period, with the forces averaged over a mesh cycle. 95 % of the assemblies stay below P95.",
+      t.assemblies, t.seed, t.distribution == ToleranceLaw::normal ? "normally" : "uniformly"));
   double highest = tabulated ? tabulated->high : 1;
   for (const auto& ring : result.rings)
     for (const auto& q : ring.tolerances->sharing.quantiles)
