@@ -244,8 +244,8 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
   if (solved.fields.size() == 2) {  // the planet's, then the wheel's
     const auto& planet = solved.fields.front();
-    result.fields.push_back(body_view(planet, solved.fields.back(), solved.positions[planet.position],
-                                      model.problem->pair, model.planet_body + " and " + model.wheel_body));
+    result.fields.push_back(deformed_mesh(planet, solved.fields.back(), solved.positions[planet.position],
+                                          model.problem->pair, model.planet_body + " and " + model.wheel_body));
   }
   result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"model", model.fidelity}};
   return result;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "app/plan/mesh_model.h"
-#include "app/report/drawings/body_view.h"
+#include "app/report/drawings/deformed_mesh.h"
 #include "core/bytes.h"
 #include "core/csv.h"
 #include "core/file_set.h"
@@ -44,14 +44,14 @@ struct MeshResult {
   StiffnessTable table;
   Csv positions{};  ///< lte_<mesh>.csv: every position and load, with tooth pair shares and invariants; may be empty
   // The others hold for the nominal load and are empty when there is nothing to tell (mesh_tables.h).
-  Csv housing{};                   ///< housing_<mesh>.csv: where the rim touches a housing bore
-  Csv pins{};                      ///< pins_<mesh>.csv: states of pins, bolts or spline teeth
-  Csv pressure{};                  ///< pressure_<mesh>.csv: pressure on the flanks
-  Csv line_load{};                 ///< line_load_<mesh>.csv: load over the face width
-  Csv stress{};                    ///< stress_<mesh>.csv: stress along roots and rim; its header names the curves
-  std::string picture{};           ///< SVG of the meshes in contact; empty when none was meshed
-  std::vector<BodyView> fields{};  ///< deformation and stress of both bodies in mesh; in no file, may be empty
-  FileSet bodies{};                ///< OUT/<ring>/mesh: .msh and .vtu of both bodies; empty once they are written
+  Csv housing{};                       ///< housing_<mesh>.csv: where the rim touches a housing bore
+  Csv pins{};                          ///< pins_<mesh>.csv: states of pins, bolts or spline teeth
+  Csv pressure{};                      ///< pressure_<mesh>.csv: pressure on the flanks
+  Csv line_load{};                     ///< line_load_<mesh>.csv: load over the face width
+  Csv stress{};                        ///< stress_<mesh>.csv: stress along roots and rim; its header names the curves
+  std::string picture{};               ///< SVG of the meshes in contact; empty when none was meshed
+  std::vector<DeformedMesh> fields{};  ///< deformation and stress of both bodies in mesh; in no file, may be empty
+  FileSet bodies{};                    ///< OUT/<ring>/mesh: .msh and .vtu of both bodies; empty once they are written
   /// Invariants and sizes by name: force_balance_relative, max_penetration_m, unknowns, mesh_seconds ...
   std::map<std::string, double> facts{};
   /// Ring meshes: how those of all planets act on each other through the ring; null when that was not looked at.

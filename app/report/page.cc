@@ -157,7 +157,7 @@ class BlockWriter {
   }
 
   /// Bodies: their picture, and their numbers for view3d.js.
-  std::string written(const BodyView& view) {
+  std::string written(const DeformedMesh& view) {
     has_views = true;
     return fmt::format(
         "<div class=\"view3d\">{}{}<div class=\"scale\">{} von Mises stress, MPa; darkest from {:g}, at most {:.0f} · "
@@ -282,7 +282,7 @@ RenderedPage rendered(const Page& page) {
                       fmt::arg("sub", html(page.sub)), fmt::arg("summary", summary), fmt::arg("links", links),
                       fmt::arg("choices", choice_html({"ring", "Ring", page.rings}) +
                                               choice_html({"mesh", "Mesh", page.meshes}) +
-                                              choice_html({"line", "Planet", page.lines, true})),
+                                              choice_html({"line", page.line_kind.c_str(), page.lines, true})),
                       fmt::arg("sections", sections), fmt::arg("scripts", script)),
           std::move(writer.pictures)};
 }

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "app/report/drawings/body_view.h"
+#include "app/report/drawings/deformed_mesh.h"
 #include "app/report/plot/plots.h"
 #include "app/report/text/text.h"
 
@@ -43,7 +43,7 @@ struct PageTable {
 struct Drawing {
   std::string svg;
 };
-using Drawn = std::variant<Plot, BarChart, ColourMap, SpreadPlot, Drawing, BodyView>;
+using Drawn = std::variant<Plot, BarChart, ColourMap, SpreadPlot, Drawing, DeformedMesh>;
 
 /// Something drawn, with a title above and a caption below when they are not empty.
 struct Picture {
@@ -125,7 +125,8 @@ struct Page {
   Blocks summary{};
   std::vector<Section> sections{};
   std::vector<std::string> rings{}, meshes{};  ///< to choose from; a single one needs no choice
-  std::vector<std::string> lines{};            ///< labels of lines to choose from, such as those of the planets
+  std::string line_kind{};                     ///< what the lines are, for the reader: "Planet"
+  std::vector<std::string> lines{};            ///< their labels, all of them or one at a time
 };
 
 }  // namespace annulus::app

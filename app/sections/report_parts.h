@@ -110,7 +110,8 @@ struct RunPage {
   std::vector<Section> geometry{};     ///< drawings
   Blocks checks{};                     ///< of the responses
   std::vector<std::string> choices{};  ///< kinds of meshes whose pictures are shown one at a time
-  std::vector<std::string> lines{};    ///< labels of lines that are shown all or one at a time
+  std::string line_kind{};             ///< see Page
+  std::vector<std::string> lines{};
 };
 /// Version and scene, results, spread, these sections, studies, bodies, geometry, model, inputs, checks and cost.
 [[nodiscard]] Page run_page(const SystemRun& run, const RunPage& page);

@@ -144,8 +144,8 @@ Section fields_section(const NamedMeshes& meshes) {
     for (const auto& view : mesh->fields) figure.list.emplace_back(view, title).ring = mesh->model.ring;
   Section section{"fields", "Deformation and stress"};
   if (figure.list.empty()) return section;
-  std::vector<BodyView*> views;
-  for (auto& picture : figure.list) views.push_back(&std::get<BodyView>(picture.drawn));
+  std::vector<DeformedMesh*> views;
+  for (auto& picture : figure.list) views.push_back(&std::get<DeformedMesh>(picture.drawn));
   share_colours(views);
   section.blocks = paragraph(
                        "Both gears in mesh, with this mesh alone at the nominal load. The position is that with the "
@@ -229,6 +229,7 @@ Page run_page(const SystemRun& run, const RunPage& page) {
   }
   for (const auto& variant : run.variants()) made.rings.push_back(variant.name);
   made.meshes = page.choices;
+  made.line_kind = page.line_kind;
   made.lines = page.lines;
   return made;
 }

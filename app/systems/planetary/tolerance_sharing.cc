@@ -29,15 +29,6 @@ using dynamics::SharingQuantiles;
 
 constexpr const char* cached_sharing = "assemblies";
 
-struct NamedQuantile {
-  const char* name;
-  const char* symbol;
-  Interval SharingQuantiles::*member;
-};
-constexpr std::array<NamedQuantile, 3> named_quantiles = {{{"p50", "P50", &SharingQuantiles::p50},
-                                                           {"p95", "P95", &SharingQuantiles::p95},
-                                                           {"p99", "P99", &SharingQuantiles::p99}}};
-
 double runout(const std::string& name, const geometry::Gear& gear, const std::optional<double>& given,
               const std::optional<int>& flank_class) {
   if (given) return *given;
@@ -55,18 +46,18 @@ double runout(const std::string& name, const geometry::Gear& gear, const std::op
 
 Json quantiles_json(const SharingQuantiles& quantiles) {
   Json json;
-  for (const auto& q : named_quantiles) json[q.name] = interval_json(quantiles.*q.member);
+  for (const auto& q : sharing_quantiles()) json[q.key] = interval_json(quantiles.*q.interval);
   return json;
 }
 
 void add_columns(std::vector<std::string>& columns, const std::string& head) {
-  for (const auto& q : named_quantiles)
-    for (const auto* end : {"", "_low", "_high"}) columns.push_back(head + q.name + end);
+  for (const auto& q : sharing_quantiles())
+    for (const auto* end : {"", "_low", "_high"}) columns.push_back(head + q.key + end);
 }
 
 void add_cells(std::vector<double>& row, const SharingQuantiles& quantiles) {
-  for (const auto& q : named_quantiles) {
-    const auto& interval = quantiles.*q.member;
+  for (const auto& q : sharing_quantiles()) {
+    const auto& interval = quantiles.*q.interval;
     row.insert(row.end(), {interval.value, interval.low, interval.high});
   }
 }
@@ -108,6 +99,13 @@ void save(const dynamics::AssemblySharing& sharing, double sun_torque, const std
 }
 
 }  // namespace
+
+const std::vector<SharingQuantile>& sharing_quantiles() {
+  static const std::vector<SharingQuantile> list = {{"p50", "P50", "50 %", &SharingQuantiles::p50},
+                                                    {"p95", "P95", "95 %", &SharingQuantiles::p95},
+                                                    {"p99", "P99", "99 %", &SharingQuantiles::p99}};
+  return list;
+}
 
 dynamics::StageTolerances stage_tolerances(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
   const auto& t = scene.tolerances.value();
@@ -166,8 +164,8 @@ double tolerance_seconds(const Scene& scene) {
 const std::vector<FigureSpec>& tolerance_figures() {
   static const auto list = [] {
     std::vector<FigureSpec> specs;
-    for (const auto& q : named_quantiles)
-      specs.push_back({.key = fmt::format("load_sharing_of_assemblies_{}", q.name),
+    for (const auto& q : sharing_quantiles())
+      specs.push_back({.key = fmt::format("load_sharing_of_assemblies_{}", q.key),
                        .title = fmt::format("Load sharing of assemblies within the tolerances, {}", q.symbol),
                        .axis = "N |F| / Σ|F|",
                        .definition = "quantile over assemblies of the quasi-static load-sharing factor, averaged over "
@@ -176,7 +174,7 @@ const std::vector<FigureSpec>& tolerance_figures() {
                        .better = Better::smaller,
                        .quantity = "load_sharing",
                        .digits = 4,
-                       .headline = std::string(q.name) != "p99",
+                       .headline = std::string(q.key) != "p99",
                        .compared = true});
     return specs;
   }();
@@ -185,8 +183,8 @@ const std::vector<FigureSpec>& tolerance_figures() {
 
 FigureSet figures(const ToleranceSharing& sharing) {
   FigureSet set;
-  for (std::size_t i = 0; i < named_quantiles.size(); ++i)
-    set.set(tolerance_figures()[i].key, sharing.figure(named_quantiles[i].member, sharing.sharing.nominal()));
+  for (std::size_t i = 0; i < sharing_quantiles().size(); ++i)
+    set.set(tolerance_figures()[i].key, sharing.figure(sharing_quantiles()[i].interval, sharing.sharing.nominal()));
   return set;
 }
 

@@ -18,6 +18,13 @@ namespace annulus::app {
 
 struct RunOptions;
 
+/// The quantiles that are shown.
+struct SharingQuantile {
+  const char *key, *symbol, *share;  ///< "p95", "P95", "95 %"
+  dynamics::Interval dynamics::SharingQuantiles::*interval;
+};
+[[nodiscard]] const std::vector<SharingQuantile>& sharing_quantiles();
+
 /// The zones of one ring's stage: radii are half the runouts and half the diameter of the pin position zone. Throws
 /// GeometryError for gears that ISO 1328-1 does not cover.
 [[nodiscard]] dynamics::StageTolerances stage_tolerances(const Scene& scene, const GearGeometry& geometry,

@@ -74,6 +74,7 @@ Page stage_report(const RunResult& result) {
        .geometry = {drawings_section(result)},
        .checks = response_checks(result),
        .choices = {sun_meshes, ring_meshes},
+       .line_kind = "Planet",
        .lines = planet_names(result)});
 }
 

@@ -9,9 +9,6 @@ namespace annulus::app {
 
 namespace {
 
-using dynamics::Interval;
-using dynamics::SharingQuantiles;
-
 /// The quantiles over the torque, with the intervals of the finite number of draws.
 Picture over_torque(const RingResult& ring, const std::optional<TabulatedSharing>& tabulated, double highest) {
   const auto& sharing = ring.tolerances->sharing;
@@ -20,12 +17,10 @@ Picture over_torque(const RingResult& ring, const std::optional<TabulatedSharing
             .y_label = "K_γ",
             .y_range = Range{1, highest}};
   std::size_t colour = 0;
-  for (const auto& [label, quantile] : {std::pair{"50 % of the assemblies", &SharingQuantiles::p50},
-                                        {"95 %", &SharingQuantiles::p95},
-                                        {"99 %", &SharingQuantiles::p99}}) {
-    Series line{.label = label, .x = sharing.torque_shares, .colour = colour++};
+  for (const auto& shown : sharing_quantiles()) {
+    Series line{.label = shown.share, .x = sharing.torque_shares, .colour = colour++};
     for (const auto& q : sharing.quantiles) {
-      const auto& interval = q.*quantile;
+      const auto& interval = q.*shown.interval;
       line.y.push_back(interval.value);
       line.low.push_back(interval.low);
       line.high.push_back(std::isfinite(interval.high) ? interval.high : interval.value);
@@ -42,13 +37,14 @@ Picture over_torque(const RingResult& ring, const std::optional<TabulatedSharing
 }
 
 PageTable quantiles_table(const RingResult& ring, const std::optional<TabulatedSharing>& tabulated) {
-  PageTable table{.head = {"torque, share", "K_γ P50", "P95", "P99"}, .style = PageTable::Style::numbers};
+  PageTable table{.head = {"torque, share"}, .style = PageTable::Style::numbers};
+  for (const auto& shown : sharing_quantiles()) table.head.emplace_back(fmt::format("K_γ {}", shown.symbol));
   if (tabulated) table.head.emplace_back(fmt::format("tabulated for {} planets", tabulated->planets));
   const auto& sharing = ring.tolerances->sharing;
   for (std::size_t i = 0; i < sharing.torque_shares.size(); ++i) {
     auto& row = table.rows.emplace_back(1, to_text(sharing.torque_shares[i], 3));
-    for (const auto quantile : {&SharingQuantiles::p50, &SharingQuantiles::p95, &SharingQuantiles::p99})
-      row.emplace_back(measured(ring.tolerances->figure(quantile, i), 1));
+    for (const auto& shown : sharing_quantiles())
+      row.emplace_back(measured(ring.tolerances->figure(shown.interval, i), 1));
     if (tabulated) row.emplace_back(text(*tabulated));
   }
   return table;
@@ -87,8 +83,9 @@ Section tolerances_section(const RunResult& result) {
     for (const auto& q : ring.tolerances->sharing.quantiles)
       highest = std::max({highest, q.p99.value, std::isfinite(q.p99.high) ? q.p99.high : 1});
   highest = 1 + 1.06 * (highest - 1);
-  Pictures pictures{.legend = {{"50 % of the assemblies", 0}, {"95 %", 1}, {"99 %", 2}},
-                    .caption = "Bands: 95 % confidence intervals for the number of assemblies."};
+  Pictures pictures{.caption = "Bands: 95 % confidence intervals for the number of assemblies."};
+  for (std::size_t i = 0; i < sharing_quantiles().size(); ++i)
+    pictures.legend.emplace_back(fmt::format("{} of the assemblies", sharing_quantiles()[i].share), i);
   for (const auto& ring : result.rings) pictures.list.push_back(over_torque(ring, tabulated, highest));
   section.blocks += pictures;
   for (const auto& ring : result.rings) {

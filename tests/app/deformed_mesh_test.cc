@@ -1,4 +1,4 @@
-#include "app/report/drawings/body_view.h"
+#include "app/report/drawings/deformed_mesh.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-Vector2d moved(const app::BodyView& view, std::size_t v, double times) {
+Vector2d moved(const app::DeformedMesh& view, std::size_t v, double times) {
   return {view.place_mm[3 * v] + times * view.displacement_mm[3 * v],
           view.place_mm[3 * v + 1] + times * view.displacement_mm[3 * v + 1]};
 }
@@ -39,7 +39,7 @@ double depth_in(const Vector2d& p, const std::array<Vector2d, 4>& corners) {
 
 /// Which vertices belong to the planet: pieces of connected faces that reach into the planet's rim, beyond which no
 /// tooth of the wheel comes.
-std::vector<bool> of_planet(const app::BodyView& view, const geometry::GearPair& pair) {
+std::vector<bool> of_planet(const app::DeformedMesh& view, const geometry::GearPair& pair) {
   std::vector<std::size_t> piece(view.stress_MPa.size());
   std::iota(piece.begin(), piece.end(), std::size_t{0});
   const auto root = [&](std::size_t v) {
@@ -61,7 +61,7 @@ std::vector<bool> of_planet(const app::BodyView& view, const geometry::GearPair&
 struct Touch {
   double depth = -std::numeric_limits<double>::infinity(), distance = std::numeric_limits<double>::infinity();
 };
-Touch touch(const app::BodyView& view, const std::vector<bool>& planet, double times) {
+Touch touch(const app::DeformedMesh& view, const std::vector<bool>& planet, double times) {
   Touch found;
   for (std::size_t v = 0; v < planet.size(); ++v) {
     if (!planet[v]) continue;
@@ -80,13 +80,13 @@ Touch touch(const app::BodyView& view, const std::vector<bool>& planet, double t
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(body_view)
+BOOST_AUTO_TEST_SUITE(deformed_mesh)
 
 /// The flanks of both bodies touch as they stand and at every exaggeration. Their displacements, some 10 µm, would
 /// drive them into each other, or apart, without the rotation of the planet under the load. What is left is the sag of
 /// straight edges of cells under curved flanks and the local flattening of the contact.
 BOOST_AUTO_TEST_CASE(flanks_touch_at_every_exaggeration) {
-  const test::TemporaryFolder folder("body_view");
+  const test::TemporaryFolder folder("deformed_mesh");
   log::set_level(log::Level::quiet);
   const auto result = app::run(app::parse_scene(test::small_stage(), "scene.toml"),
                                {.out = folder.path(), .threads = 2, .with_dynamics = false});
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(flanks_touch_at_every_exaggeration) {
 }
 
 BOOST_AUTO_TEST_CASE(views_share_their_colours) {
-  app::BodyView a, b;
+  app::DeformedMesh a, b;
   a.top_MPa = 230;
   b.top_MPa = 410;
   app::share_colours({&a, &b});

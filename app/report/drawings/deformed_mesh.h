@@ -13,7 +13,7 @@ namespace annulus::app {
 
 /// Two deformed bodies in mesh, near their contact: vertices and faces that are seen, in page axes (to the right,
 /// upwards, to the eye). They are drawn as a picture, and by view3d.js as a view that can be rotated.
-struct BodyView {
+struct DeformedMesh {
   std::string name{};                                 ///< of the bodies, for readers
   std::vector<double> place_mm{}, displacement_mm{};  ///< three numbers a vertex
   std::vector<double> stress_MPa{};                   ///< von Mises, of every vertex
@@ -29,24 +29,24 @@ struct BodyView {
 /// Both bodies of a pair as they stand at this position, the planet above the wheel. To the displacement of the planet
 /// belongs its rotation by the deflection of the mesh: where flanks touch, they touch at every exaggeration. Without
 /// faces when a field has no cells.
-[[nodiscard]] BodyView body_view(const fem::BodyField& planet, const fem::BodyField& wheel,
-                                 const fem::LoadedPosition& position, const geometry::GearPair& pair,
-                                 const std::string& name);
+[[nodiscard]] DeformedMesh deformed_mesh(const fem::BodyField& planet, const fem::BodyField& wheel,
+                                         const fem::LoadedPosition& position, const geometry::GearPair& pair,
+                                         const std::string& name);
 
 /// One scale for all views: up to the largest of their tops, rounded up.
-void share_colours(std::vector<BodyView*> views);
+void share_colours(std::vector<DeformedMesh*> views);
 
 /// Displacements exaggerated, coloured by von Mises stress; grey: the outline of a plane body without load.
-[[nodiscard]] std::string to_svg(const BodyView& view);
+[[nodiscard]] std::string to_svg(const DeformedMesh& view);
 
 /// As JSON for view3d.js, with the colours of its stress.
-[[nodiscard]] nlohmann::json view_data(const BodyView& view);
+[[nodiscard]] nlohmann::json view_data(const DeformedMesh& view);
 
 }  // namespace annulus::app
 
 namespace annulus {
 
-ANNULUS_MEMBERS(app::BodyView, name, place_mm, displacement_mm, stress_MPa, faces, solid, largest_displacement_mm,
+ANNULUS_MEMBERS(app::DeformedMesh, name, place_mm, displacement_mm, stress_MPa, faces, solid, largest_displacement_mm,
                 largest_stress_MPa, exaggeration, top_MPa, mesh_phase, ring_tooth);
 
 }  // namespace annulus

@@ -1,4 +1,4 @@
-#include "app/report/drawings/body_view.h"
+#include "app/report/drawings/deformed_mesh.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace annulus::app {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BodyView, name, place_mm, displacement_mm, stress_MPa, faces, solid,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DeformedMesh, name, place_mm, displacement_mm, stress_MPa, faces, solid,
                                    largest_displacement_mm, largest_stress_MPa, exaggeration, top_MPa, mesh_phase,
                                    ring_tooth)
 
@@ -86,9 +86,9 @@ MeshPlaces mesh_places(const geometry::GearPair& pair, const fem::LoadedPosition
 }
 
 /// Page axes: the line of centres upright; of solids from a little before their lower faces.
-Eigen::Matrix3d page_axes(bool solid) {
+Eigen::Matrix3d page_axes(int dimension) {
   const Eigen::Matrix3d upright = Eigen::AngleAxisd(90 * units::deg, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  if (!solid) return upright;
+  if (dimension == 2) return upright;
   // The eye below the plane sees the sectors of the lower half of a symmetric face from outside.
   const auto behind = Eigen::AngleAxisd(180 * units::deg, Eigen::Vector3d::UnitY());
   const auto aside = Eigen::AngleAxisd(-28 * units::deg, Eigen::Vector3d::UnitY());
@@ -116,7 +116,7 @@ void add_place(std::vector<double>& list, const Eigen::Vector3d& place_mm) {
 }
 
 /// Edges of one face alone, of vertices that coincide.
-std::vector<std::array<Eigen::Vector3d, 2>> outline(const BodyView& view) {
+std::vector<std::array<Eigen::Vector3d, 2>> outline(const DeformedMesh& view) {
   using Place = std::array<double, 3>;
   const auto place = [&](std::size_t corner) {
     const double* p = &view.place_mm[3 * std::size_t{view.faces[corner]}];
@@ -136,15 +136,16 @@ std::vector<std::array<Eigen::Vector3d, 2>> outline(const BodyView& view) {
 
 }  // namespace
 
-BodyView body_view(const fem::BodyField& planet, const fem::BodyField& wheel, const fem::LoadedPosition& position,
-                   const geometry::GearPair& pair, const std::string& name) {
-  BodyView view{.name = name,
-                .solid = wheel.mesh.dimension == 3,
-                .mesh_phase = position.mesh_phase,
-                .ring_tooth = position.ring_tooth};
+DeformedMesh deformed_mesh(const fem::BodyField& planet, const fem::BodyField& wheel,
+                           const fem::LoadedPosition& position, const geometry::GearPair& pair,
+                           const std::string& name) {
+  DeformedMesh view{.name = name,
+                    .solid = wheel.mesh.dimension == 3,
+                    .mesh_phase = position.mesh_phase,
+                    .ring_tooth = position.ring_tooth};
   if (planet.mesh.cells.empty() || wheel.mesh.cells.empty()) return view;
   const auto places = mesh_places(pair, position);
-  const Eigen::Matrix3d axes = page_axes(view.solid);
+  const Eigen::Matrix3d axes = page_axes(wheel.mesh.dimension);
   Eigen::AlignedBox3d box;
   const auto add = [&](const fem::BodyField& field, double angle, double centre, double rotation) {
     const Eigen::Matrix3d turned = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -174,7 +175,7 @@ BodyView body_view(const fem::BodyField& planet, const fem::BodyField& wheel, co
   return view;
 }
 
-void share_colours(std::vector<BodyView*> views) {
+void share_colours(std::vector<DeformedMesh*> views) {
   double top = 0;
   for (const auto* view : views) top = std::max(top, view->top_MPa);
   if (!(top > 0)) return;
@@ -182,7 +183,7 @@ void share_colours(std::vector<BodyView*> views) {
   for (auto* view : views) view->top_MPa = step * std::ceil(top / step - 1e-9);
 }
 
-std::string to_svg(const BodyView& view) {
+std::string to_svg(const DeformedMesh& view) {
   const auto colours = scale_colours(Ways::one);
   std::vector<std::pair<std::size_t, Facet>> facets;  // by level
   for (std::size_t f = 0; f < view.faces.size(); f += 4) {
@@ -229,7 +230,7 @@ double step_of(const std::vector<double>& values, double steps) {
 
 }  // namespace
 
-nlohmann::json view_data(const BodyView& view) {
+nlohmann::json view_data(const DeformedMesh& view) {
   constexpr double screen = 20'000, shades = 1000;  // finer than any screen, and than any eye
   nlohmann::json data = view;
   data["place_mm"] = in_steps(view.place_mm, step_of(view.place_mm, screen), 3);
