@@ -19,17 +19,20 @@ std::vector<const ComparedVariant*> all_variants(const std::vector<ComparedRun>&
 
 ComparedQuantity quantity_of(const FigureSpec& spec, const std::vector<const ComparedVariant*>& variants) {
   ComparedQuantity compared{.spec = &spec, .si = {spec.quantity, spec.title, {}, spec.digits}};
+  std::vector<double> values;
+  for (const auto* variant : variants) values.push_back(variant->figures.value(spec.key));
+  const auto [unit, scale] = readable_unit({spec.unit, spec.scale}, values);
   compared.shown = compared.si;
-  if (!spec.unit.empty()) compared.shown.name += ", " + spec.unit;
+  if (!unit.empty()) compared.shown.name += ", " + unit;
   for (const auto* variant : variants) {
     const auto [value, error] = variant->figures.figure(spec.key);
     const bool known = std::isfinite(value);
-    const Measured shown{variant->name, value * spec.scale, error * spec.scale};
+    const Measured shown{variant->name, value * scale, error * scale};
     compared.cells.push_back(known ? measured(shown.value, shown.error) : "–");
     const auto* entry = variant->figures.find(spec.key);
     const auto spread = entry ? entry->spread : std::nullopt;
     compared.has_spread |= spread.has_value();
-    compared.spreads.push_back(spread ? spread_text(*spread, spec.scale) : "–");
+    compared.spreads.push_back(spread ? spread_text(*spread, scale) : "–");
     if (!known) continue;
     compared.si.rings.push_back({variant->name, value, error, spread});
     compared.shown.rings.push_back(shown);

@@ -13,12 +13,6 @@
 
 namespace annulus::app {
 
-double GearSystem::response_seconds() const {
-  double seconds = 0;
-  for (const auto& response : responses()) seconds += response.study_s;
-  return seconds;
-}
-
 PlanCost GearSystem::cost(int threads) const {
   return plan_cost(meshes(), responses(), plan_studies(scene_), threads,
                    [this](const MeshModel& mesh) { return coupled(mesh); });
@@ -88,13 +82,13 @@ bool table_serves(const MeshModel& nominal, const MeshModel& changed, double mea
   return same_loads.id() == nominal.id();
 }
 
-std::vector<std::string> tables_to_solve(const Scene& nominal, const Scene& changed) {
+std::vector<MeshModel> tables_to_solve(const Scene& nominal, const Scene& changed) {
   const auto system = make_system(changed);
   const auto before = make_system(nominal)->meshes(), after = system->meshes();
-  std::vector<std::string> labels;
+  std::vector<MeshModel> list;
   for (std::size_t i = 0; i < after.size(); ++i)
-    if (!table_serves(before.at(i), after[i], system->mean_mesh_force())) labels.push_back(after[i].label());
-  return labels;
+    if (!table_serves(before.at(i), after[i], system->mean_mesh_force())) list.push_back(after[i]);
+  return list;
 }
 
 }  // namespace annulus::app

@@ -67,8 +67,6 @@ class GearSystem {
                                                            const std::vector<const MeshResult*>& tables) const = 0;
   /// The responses of a run, one step each; empty without [dynamics], and where they take no time.
   [[nodiscard]] virtual std::vector<PlannedResponse> responses() const { return {}; }
-  /// Rough processor time of a study's response of all variants, s.
-  [[nodiscard]] double response_seconds() const;
   /// Whether a computed mesh is coupled with the others through its ring, which is solved as a step of its own.
   [[nodiscard]] virtual bool coupled(const MeshModel& /*mesh*/) const { return false; }
   /// Predicted time and memory of a run by the cost laws.
@@ -153,6 +151,6 @@ void check_stage(const Scene& scene);
 /// the tabulated loads, between which tables are interpolated.
 [[nodiscard]] bool table_serves(const MeshModel& nominal, const MeshModel& changed, double mean_mesh_force);
 /// Stiffness tables (labels for people) that a changed scene needs and the nominal one does not have.
-[[nodiscard]] std::vector<std::string> tables_to_solve(const Scene& nominal, const Scene& changed);
+[[nodiscard]] std::vector<MeshModel> tables_to_solve(const Scene& nominal, const Scene& changed);
 
 }  // namespace annulus::app

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "app/plan/cost_plan.h"
 #include "app/process/held_limits.h"
 #include "app/process/progress.h"
@@ -57,27 +59,34 @@ FileSet body_files(const MeshModel& model, const fem::LoadedMeshResult& solved, 
 
 fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& options) {
   const int threads = options.threads;
-  Progress progress(model.label(), machine_pace() * predicted_cost(mesh_size(model), threads).seconds);
+  // Formulas take a fraction of a second: the study that asks for them has a progress of its own.
+  const bool told = !(options.for_study && model.settings.fidelity == fem::Fidelity::closed_form);
+  std::optional<Progress> progress;
+  if (told) progress.emplace(model.label(), machine_pace() * predicted_cost(mesh_size(model), threads).seconds);
+  const auto update = [&](double fraction) {
+    if (progress) progress->update(fraction);
+  };
   fem::LoadedMeshSettings settings = model.settings;
   settings.threads = threads;
   settings.store = options.store;
   settings.recovery = options.for_study ? fem::Recovery::stresses : fem::Recovery::fields;
-  settings.progress = [&](double fraction) { progress.update(fraction); };
+  settings.progress = update;
   settings.before_level = [&](int degree, int level) {
     check_held_memory(
         peak_memory(level_size(model, degree, level), threads),
         fmt::format("{} elements of level {} of the {}", degree == 1 ? "linear" : "quadratic", level, model.label()),
         "ask for less accuracy (accuracy), fewer threads (--threads) or another model (model)");
   };
-  progress.update(0);
+  update(0);
   auto solved = fem::solve_loaded_mesh(*model.problem, settings);
   std::string teeth;
   if (solved.reused_teeth > 0)
     teeth = fmt::format(" ({} of {} teeth reused)", solved.reused_teeth, solved.reused_teeth + solved.condensed_teeth);
-  progress.finish(
-      fmt::format("{} positions, {} unknowns per pair of sectors; mesh {:.2f} s, condense {:.2f} s{}, contact {:.2f} s",
-                  solved.positions.size(), solved.unknowns, solved.mesh_seconds, solved.condense_seconds, teeth,
-                  solved.contact_seconds));
+  if (progress)
+    progress->finish(fmt::format(
+        "{} positions, {} unknowns per pair of sectors; mesh {:.2f} s, condense {:.2f} s{}, contact {:.2f} s",
+        solved.positions.size(), solved.unknowns, solved.mesh_seconds, solved.condense_seconds, teeth,
+        solved.contact_seconds));
   count_reuse(options, condensed_teeth, solved.reused_teeth, solved.condensed_teeth);
   return solved;
 }

@@ -13,10 +13,25 @@ namespace annulus::app {
 
 namespace {
 
-int count_tables(const Scene& scene, const std::vector<StudyCase>& cases) {
-  std::size_t tables = 0;
-  for (const auto& study_case : cases) tables += tables_to_solve(scene, change_scene(scene, study_case)).size();
-  return static_cast<int>(tables);
+/// What changed scenes need besides the tables of the scene.
+struct OwnTables {
+  int count = 0;
+  CostRun largest{};
+
+  void add(const Scene& scene, const StudyCase& study_case) {
+    for (const auto& mesh : tables_to_solve(scene, change_scene(scene, study_case))) {
+      ++count;
+      const auto size = mesh_size(mesh);
+      if (count == 1 || processor_seconds(size) > processor_seconds(largest)) largest = size;
+    }
+  }
+};
+
+/// Responses of all variants together, by how much of them is asked for.
+double response_seconds(const GearSystem& system, double PlannedResponse::*of) {
+  double seconds = 0;
+  for (const auto& response : system.responses()) seconds += response.*of;
+  return seconds;
 }
 
 std::string row_text(const Scene& scene, const SweepInput& s) {
@@ -32,14 +47,20 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
   const auto sampling = sampling_of(scene);
   const bool any = !scene.sweeps.empty() || !scene.grids.empty() || sampling || scene.sensitivity || scene.optimise;
   if (!any || !scene.dynamics) return list;
-  const auto variants = static_cast<long>(make_system(scene)->variants().size());
-  const double each = make_system(scene)->response_seconds();
-  const auto add = [&](std::string name, std::string what, std::size_t cases, int tables) {
+  const auto system = make_system(scene);
+  const auto variants = static_cast<long>(system->variants().size());
+  const double whole = response_seconds(*system, &PlannedResponse::study_s),
+               sample = response_seconds(*system, &PlannedResponse::sample_s);
+  const auto add = [&](std::string name, std::string what, std::size_t cases, double each, const OwnTables& tables) {
     const auto n = static_cast<long>(cases);
-    list.push_back({std::move(name), std::move(what), n * variants, tables, each * static_cast<double>(n)});
+    list.push_back(
+        {std::move(name), std::move(what), n * variants, tables.count, each * static_cast<double>(n), tables.largest});
   };
-  const auto add_cases = [&](std::string name, std::string what, const std::vector<StudyCase>& cases) {
-    add(std::move(name), std::move(what), cases.size(), count_tables(scene, cases));
+  const auto add_cases = [&](std::string name, std::string what, const std::vector<StudyCase>& cases,
+                             std::size_t besides = 0) {
+    OwnTables tables;
+    for (const auto& study_case : cases) tables.add(scene, study_case);
+    add(std::move(name), std::move(what), cases.size() + besides, whole, tables);
   };
   for (std::size_t i = 0; i < scene.sweeps.size(); ++i)
     add_cases(fmt::format("[[sweep]] {}", i + 1), row_text(scene, scene.sweeps[i]), sweep_cases(scene, i));
@@ -53,33 +74,37 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
                           sampling->samples, sampling->variables.size())
             : fmt::format("{} samples of {} random inputs, seed {}", sampling->samples, sampling->variables.size(),
                           sampling->seed),
-        static_cast<std::size_t>(sampling->samples), 0);
+        static_cast<std::size_t>(sampling->samples), sample, {});
   if (scene.sensitivity) {
     const auto cases = sensitivity_cases(scene);
-    add("[sensitivity]",
-        fmt::format("{} inputs, each divided and multiplied by {}", cases.size() / 2,
-                    to_text(scene.sensitivity->factor)),
-        cases.size() + 1, count_tables(scene, cases));
+    add_cases("[sensitivity]",
+              fmt::format("{} inputs, each divided and multiplied by {}", cases.size() / 2,
+                          to_text(scene.sensitivity->factor)),
+              cases, 1);
   }
   if (scene.optimise) {
     const auto& o = *scene.optimise;
     const long searches = static_cast<long>(o.optimisers.size()) * o.repeats;
     const long points = searches * (o.generations + 1L) * o.population;
     std::string inputs;
-    int tables = 0;
+    OwnTables tables;  // of a design: those of the end of a range that needs most
     for (const auto& v : scene.variables) {
       inputs += (inputs.empty() ? "" : ", ") + v.input;
-      const StudyCase end{{{v.input, v.high}}, "[optimise]", ""};
+      OwnTables of_end;
       try {
-        tables = std::max(tables, count_tables(scene, {end}));
+        of_end.add(scene, {{{v.input, v.high}}, "[optimise]", ""});
       } catch (const InputError&) {  // an end of the range alone need not make a good scene
       }
+      if (of_end.count > tables.count) tables = of_end;
     }
+    constexpr long of_an_int = 1'000'000'000;
     list.push_back({"[optimise]",
                     fmt::format("{} over {}, {} search{} of {} generations of {}", fmt::join(o.objective, ", "), inputs,
                                 searches, searches == 1 ? "" : "es", o.generations, o.population),
-                    points, tables ? static_cast<int>(std::min(points * tables, 1'000'000'000L)) : 0,
-                    each / static_cast<double>(variants) * static_cast<double>(points)});
+                    points, static_cast<int>(std::min(points * tables.count, of_an_int)),
+                    (asks_for_motion(o, system_kind(scene.stage.kind).model_figures()) ? whole : sample) /
+                        static_cast<double>(variants) * static_cast<double>(points),
+                    tables.largest, static_cast<int>(std::min(searches, of_an_int))});
   }
   return list;
 }

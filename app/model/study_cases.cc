@@ -203,6 +203,11 @@ std::vector<StudyCase> all_cases(const Scene& scene) {
 
 std::vector<std::string> unstated_phases(const Scene& scene) { return unknown_phases(scene, true); }
 
+bool asks_for_motion(const OptimiseInput& search, const std::vector<FigureSpec>& figures) {
+  return std::any_of(search.objective.begin(), search.objective.end(),
+                     [&](const std::string& key) { return find_figure(figures, key)->effort == FigureEffort::motion; });
+}
+
 std::optional<Sampling> sampling_of(const Scene& scene) {
   if (!scene.dynamics) return std::nullopt;
   // One of them is expected beyond either end of the range from 5 % to 95 %.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/scene/overrides.h"
+#include "core/figure.h"
 #include "dynamics/statistics/sampling.h"
 
 /// What the studies of a scene consist of: lists of changed scenes, made without computing anything.
@@ -58,6 +59,8 @@ struct Sampling {
 /// As [monte_carlo] asks; without that table a few samples of the phases that the scene does not state, or states as
 /// assumed. Absent: nothing is drawn.
 [[nodiscard]] std::optional<Sampling> sampling_of(const Scene& scene);
+/// Whether the objective of [optimise] needs the motion of the bodies: every design is then answered as a whole.
+[[nodiscard]] bool asks_for_motion(const OptimiseInput& search, const std::vector<FigureSpec>& figures);
 [[nodiscard]] double draw(const RandomVariable& variable, int seed, int sample);
 [[nodiscard]] StudyCase sample_case(const std::vector<RandomVariable>& variables, int seed, int sample);
 

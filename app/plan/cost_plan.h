@@ -59,7 +59,8 @@ struct PlanCost {
 struct PlannedResponse {
   std::string label, ring;
   CostRun size;
-  double study_s = 0;  ///< processor time of the same response in a study
+  double study_s = 0;   ///< processor time of the same response in a study
+  double sample_s = 0;  ///< the same without its motion, as samples and searches ask for it (Answer::without_motion)
 };
 
 /// Responses on changed tables that carry the errors of `tables` tables (dynamics::propagate_errors): each of them
@@ -74,6 +75,8 @@ struct StudyPlan {
   long responses = 0;  ///< over all rings
   int tables = 0;      ///< stiffness tables to be solved besides the nominal ones
   double seconds = 0;  ///< rough processor time of the responses, tables not counted
+  CostRun table{};     ///< the most expensive of the tables
+  int tasks = 0;       ///< that threads can share; 0: as many as responses
 };
 
 /// Predicted cost of a run. `coupled`: whether a computed mesh is coupled with the others through its ring, which is a

@@ -6,6 +6,7 @@
 
 #include "app/results/content_id.h"
 #include "core/csv.h"
+#include "core/readable_unit.h"
 
 namespace annulus::app {
 
@@ -25,11 +26,12 @@ std::string figures_csv(const std::vector<FigureSpec>& specs, const std::vector<
       const auto* entry = variant.figures.find(spec.key);
       if (!entry) continue;
       const auto& f = entry->figure;
+      const auto shown = readable_unit({spec.unit, spec.scale}, {f.value});
       const auto s = entry->spread.value_or(Spread{not_known, not_known, not_known});
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(variant.name), spec.key, spec.symbol,
                           number_cell(f.value), number_cell(f.error), number_cell(s.low), number_cell(s.median),
-                          number_cell(s.high), number_cell(spec.scale * f.value), number_cell(spec.scale * f.error),
-                          spec.unit, csv_cell(spec.title));
+                          number_cell(s.high), number_cell(shown.scale * f.value), number_cell(shown.scale * f.error),
+                          shown.unit, csv_cell(spec.title));
     }
   return text;
 }

@@ -24,16 +24,15 @@ std::vector<Measured> sorted(const RingQuantity& q) {
 Text stiffness_sentence(const RingQuantity& q) {
   const auto rings = sorted(q);
   const auto& stiffest = rings.front();
-  const auto value = measured(stiffest.value / 1e6, stiffest.error / 1e6);
-  if (rings.size() < 2)
-    return phrase("The ring mesh of {} has a mean stiffness of {} N/µm.", bold(stiffest.ring), value);
+  const auto value = measured_in_unit({stiffest.value, stiffest.error}, shown_units::stiffness);
+  if (rings.size() < 2) return phrase("The ring mesh of {} has a mean stiffness of {}.", bold(stiffest.ring), value);
   std::vector<Text> others;
   for (std::size_t i = 1; i < rings.size(); ++i)
     others.push_back(bold(rings[i].ring) + " is " +
                      (same(rings[i], stiffest)
                           ? "as stiff"
                           : fmt::format("{:.1f} % softer", 100 * (1 - rings[i].value / stiffest.value))));
-  return phrase("Stiffness of the ring mesh: {} is the stiffest ({} N/µm); {}.", bold(stiffest.ring), value,
+  return phrase("Stiffness of the ring mesh: {} is the stiffest ({}); {}.", bold(stiffest.ring), value,
                 enumerated(others));
 }
 

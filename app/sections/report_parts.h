@@ -12,6 +12,7 @@
 #include "app/model/system_run.h"
 #include "app/report/page.h"
 #include "app/report/section.h"
+#include "core/readable_unit.h"
 #include "dynamics/steady_state/steady_response.h"
 
 /// The sections of report pages, made from the results alone. A section without blocks has nothing to show and is left
@@ -25,6 +26,9 @@ using NamedMeshes = std::vector<std::pair<std::string, const MeshResult*>>;
 /// "1.364 ± 0.012": as many digits as the error leaves, five when there is no error.
 [[nodiscard]] std::string measured(double value, double error);
 [[nodiscard]] std::string measured(const Figure& figure, double scale);
+/// "2.973 ± 0.076 kN/µm", "12.3 N" for a value in SI, in the unit that suits it (core/readable_unit.h).
+[[nodiscard]] std::string measured_in_unit(const Figure& figure, const ShownUnit& declared);
+[[nodiscard]] std::string text_in_unit(double value, const ShownUnit& declared, int digits = 4);
 /// "1.21 (1.16 to 1.29)": median, and 5 % to 95 % of the samples, to two digits of their distance.
 [[nodiscard]] std::string spread_text(const Spread& spread, double scale);
 /// Behind the name of a result: its spread, and its value as the scene gives the inputs.

@@ -13,12 +13,15 @@ namespace annulus::app {
 
 namespace {
 
-/// The declared results that at least one variant has.
-std::vector<const FigureSpec*> known_results(const SystemRun& run, const std::vector<VariantFigures>& variants) {
-  std::vector<const FigureSpec*> list;
-  for (const auto& spec : system_kind(run.scene.stage.kind).figures())
-    if (std::any_of(variants.begin(), variants.end(), [&](const auto& v) { return v.figures.find(spec.key); }))
-      list.push_back(&spec);
+/// The declared results that at least one variant has, each in one unit that suits all variants.
+std::vector<FigureSpec> known_results(const SystemRun& run, const std::vector<VariantFigures>& variants) {
+  std::vector<FigureSpec> list;
+  for (const auto& spec : system_kind(run.scene.stage.kind).figures()) {
+    std::vector<double> values;
+    for (const auto& v : variants)
+      if (const auto* entry = v.figures.find(spec.key)) values.push_back(entry->figure.value);
+    if (!values.empty()) list.push_back(in_readable_unit(spec, values));
+  }
   return list;
 }
 
@@ -45,10 +48,9 @@ bool says_nothing(const FigureSpec& spec, const std::vector<VariantFigures>& var
 }
 
 /// Those of a short table; all where none is declared as such.
-std::vector<const FigureSpec*> most_important(std::vector<const FigureSpec*> specs,
-                                              const std::vector<VariantFigures>& variants) {
-  if (std::none_of(specs.begin(), specs.end(), [](const FigureSpec* spec) { return spec->headline; })) return specs;
-  std::erase_if(specs, [&](const FigureSpec* spec) { return !spec->headline || says_nothing(*spec, variants); });
+std::vector<FigureSpec> most_important(std::vector<FigureSpec> specs, const std::vector<VariantFigures>& variants) {
+  if (std::none_of(specs.begin(), specs.end(), [](const FigureSpec& spec) { return spec.headline; })) return specs;
+  std::erase_if(specs, [&](const FigureSpec& spec) { return !spec.headline || says_nothing(spec, variants); });
   return specs;
 }
 
@@ -100,17 +102,17 @@ std::string part_text(double share) {
   return share == 0 ? "–" : share < 1e-4 ? "< 0.01 %" : fmt::format("{:.2g} %", 100 * share);
 }
 
-Blocks error_parts(const std::vector<const FigureSpec*>& specs, const std::vector<VariantFigures>& variants) {
+Blocks error_parts(const std::vector<FigureSpec>& specs, const std::vector<VariantFigures>& variants) {
   PageTable table{.head = {"", "value ± error", "discretisation", "local contact", "condensation",
                            "table interpolation", "time integration", "model choice"},
                   .style = PageTable::Style::numbers};
   for (const auto& variant : variants) {
     if (variants.size() > 1)
       table.rows.push_back({column_names(variants)[static_cast<std::size_t>(&variant - variants.data())]});
-    for (const auto* spec : specs) {
-      const auto* entry = variant.figures.find(spec->key);
-      if (!entry || entry->parts.total() == 0 || entry->figure.value == 0 || spec->key == "steady") continue;
-      auto& row = table.rows.emplace_back(std::vector<Text>{result_title(*spec), result_text(*spec, variant)});
+    for (const auto& spec : specs) {
+      const auto* entry = variant.figures.find(spec.key);
+      if (!entry || entry->parts.total() == 0 || entry->figure.value == 0 || spec.key == "steady") continue;
+      auto& row = table.rows.emplace_back(std::vector<Text>{result_title(spec), result_text(spec, variant)});
       for (const auto& [name, part] : error_part_names) {
         const double share = std::abs(entry->parts.*part / entry->figure.value);
         row.emplace_back(part_text(share));
@@ -153,6 +155,16 @@ std::string measured(const Figure& figure, double scale) {
   return measured(scale * figure.value, scale * figure.error);
 }
 
+std::string measured_in_unit(const Figure& figure, const ShownUnit& declared) {
+  const auto shown = readable_unit(declared, {figure.value});
+  return measured(figure, shown.scale) + " " + shown.unit;
+}
+
+std::string text_in_unit(double value, const ShownUnit& declared, int digits) {
+  const auto shown = readable_unit(declared, {value});
+  return to_text(shown.scale * value, digits) + " " + shown.unit;
+}
+
 std::string spread_text(const Spread& spread, double scale) {
   const double low = scale * spread.low, median = scale * spread.median, high = scale * spread.high;
   if (!std::isfinite(low + high)) return "not known";
@@ -171,7 +183,7 @@ std::string with_unit(const std::string& text, const std::string& unit) {
 
 namespace {
 
-PageTable results_table(const std::vector<const FigureSpec*>& specs, const std::vector<VariantFigures>& variants,
+PageTable results_table(const std::vector<FigureSpec>& specs, const std::vector<VariantFigures>& variants,
                         const std::vector<ResultGroup>& groups) {
   PageTable table{.head = {"result"}, .style = PageTable::Style::numbers};
   for (const auto& name : column_names(variants)) table.head.emplace_back(name);
@@ -180,17 +192,17 @@ PageTable results_table(const std::vector<const FigureSpec*>& specs, const std::
   };
   for (auto group = groups.begin(); group != groups.end(); ++group) {
     const auto before = table.rows.size();
-    for (const auto* spec : specs) {
-      if (group_of(*spec) != group) continue;
-      const bool spread = has_spread(*spec, variants);
+    for (const auto& spec : specs) {
+      if (group_of(spec) != group) continue;
+      const bool spread = has_spread(spec, variants);
       if (spread) {
-        auto& row = table.rows.emplace_back(1, result_title(*spec) + spread_words);
-        for (const auto& variant : variants) row.emplace_back(bold(spread_of(*spec, variant)));
+        auto& row = table.rows.emplace_back(1, result_title(spec) + spread_words);
+        for (const auto& variant : variants) row.emplace_back(bold(spread_of(spec, variant)));
       }
       auto& row =
-          table.rows.emplace_back(1, spread ? muted("the same" + std::string(nominal_words)) : result_title(*spec));
+          table.rows.emplace_back(1, spread ? muted("the same" + std::string(nominal_words)) : result_title(spec));
       for (const auto& variant : variants)
-        row.emplace_back(spread ? muted(result_text(*spec, variant)) : Text(result_text(*spec, variant)));
+        row.emplace_back(spread ? muted(result_text(spec, variant)) : Text(result_text(spec, variant)));
     }
     if (table.rows.size() > before && !group->heading.empty())
       table.rows.insert(table.rows.begin() + static_cast<std::ptrdiff_t>(before), std::vector<Text>{group->heading});
@@ -226,7 +238,7 @@ Section definitions_section(const SystemRun& run) {
   Blocks blocks;
   for (const auto& d : definitions()) {
     const bool used = d.key == "nominal_force" || d.key == "error_bar" || d.key == "spread" ||
-                      std::any_of(specs.begin(), specs.end(), [&](const auto* spec) { return spec->term == d.key; });
+                      std::any_of(specs.begin(), specs.end(), [&](const auto& spec) { return spec.term == d.key; });
     if (!used) continue;
     blocks += Heading{d.title + with_symbol(d.symbol), definition_anchor(d.key)} + paragraph(code(d.formula)) +
               paragraph(d.text);
@@ -241,7 +253,7 @@ std::string key_results_text(const SystemRun& run) {
     return with_unit(spec.title, spec.unit) + (has_spread(spec, variants) ? spread_words : "");
   };
   std::size_t width = 0;
-  for (const auto* spec : specs) width = std::max(width, title_of(*spec).size());
+  for (const auto& spec : specs) width = std::max(width, title_of(spec).size());
   std::string text;
   const auto line = [&](const std::string& title, auto cells) {
     text += fmt::format("{:<{}}", title, width);
@@ -249,11 +261,11 @@ std::string key_results_text(const SystemRun& run) {
     text += "\n";
   };
   if (variants.size() > 1) line("", [names = column_names(variants)](std::size_t i) { return names[i]; });
-  for (const auto* spec : specs) {
-    const bool spread = has_spread(*spec, variants);
-    if (spread) line(title_of(*spec), [&](std::size_t i) { return spread_of(*spec, variants[i]); });
-    line(spread ? std::string("   the same") + nominal_words : title_of(*spec),
-         [&](std::size_t i) { return result_text(*spec, variants[i]); });
+  for (const auto& spec : specs) {
+    const bool spread = has_spread(spec, variants);
+    if (spread) line(title_of(spec), [&](std::size_t i) { return spread_of(spec, variants[i]); });
+    line(spread ? std::string("   the same") + nominal_words : title_of(spec),
+         [&](std::size_t i) { return result_text(spec, variants[i]); });
   }
   return text;
 }

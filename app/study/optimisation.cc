@@ -27,9 +27,7 @@ class DesignObjective {
         settings_(*scene_.optimise),
         figures_(subject.figures()),
         variant_(variant_of(subject)) {
-    quick_ = std::all_of(settings_.objective.begin(), settings_.objective.end(), [&](const std::string& key) {
-      return find_figure(figures_, key)->effort != FigureEffort::motion;
-    });
+    quick_ = !asks_for_motion(settings_, figures_);
     weights_ = settings_.weights;
     const auto n = static_cast<double>(settings_.objective.size());
     if (weights_.empty()) weights_.assign(settings_.objective.size(), 1 / n);
@@ -110,10 +108,11 @@ class DesignObjective {
   }
 
  private:
-  /// Tables that it needs are solved first, with all threads.
+  /// Tables that it needs are solved first: elements with all threads, one table after another.
   [[nodiscard]] std::unique_ptr<LumpedModel> model(const StudyCase& changed) const {
     {
-      const std::scoped_lock lock(solving_);
+      std::unique_lock lock(solving_, std::defer_lock);
+      if (subject_.solves_elements()) lock.lock();
       subject_.prepare(changed);
     }
     return subject_.model(changed, variant_);

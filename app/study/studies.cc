@@ -45,7 +45,7 @@ void check_random_input(const Scene& scene, const RandomVariable& variable, cons
     refuse(
         fmt::format("changes the stiffness table of the {}, and every sample would have to compute it again; use "
                     "[[sweep]] or [sensitivity], or prescribe the stiffness in [mesh]",
-                    tables.front()));
+                    tables.front().label()));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/model/run_options.h"
 #include "app/model/system_run.h"
 #include "core/errors.h"
@@ -32,6 +34,12 @@ std::filesystem::path StudySubject::folder(std::size_t variant) const {
   return folder;
 }
 
+bool StudySubject::solves_elements() const {
+  return std::any_of(tables_.begin(), tables_.end(), [](const MeshResult& table) {
+    return table.model.computed() && table.model.settings.fidelity != fem::Fidelity::closed_form;
+  });
+}
+
 bool StudySubject::prepare(const StudyCase& changed) const {
   const auto scene_of_case = with_overrides(scene(), changed.overrides);
   const auto system = make_system(scene_of_case);
@@ -47,7 +55,10 @@ bool StudySubject::prepare(const StudyCase& changed) const {
     RunOptions inside = options_;
     inside.out /= changed.folder;
     inside.for_study = true;
-    log::info(changed.where + ":");
+    if (solves_elements())
+      log::info(changed.where + ":");
+    else
+      inside.threads = 1;
     auto mesh = stiffness_alone(system->stiffness(meshes[i], inside));
     const std::lock_guard guard(lock_);
     prepared_.emplace(Place{changed.folder, i}, std::move(mesh));

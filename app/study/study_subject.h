@@ -29,8 +29,10 @@ class StudySubject {
   /// The results of the scene as it is with their errors; empty without [dynamics].
   [[nodiscard]] FigureSet nominal(std::size_t variant) const;
 
+  /// Whether tables are solved with elements, which take all threads and much memory, and not by formulas alone.
+  [[nodiscard]] bool solves_elements() const;
   /// Solves what a changed scene needs beyond the nominal results (stiffness tables), with all threads, into its folder
-  /// below OUT; true when there was anything. Throws what solving throws.
+  /// below OUT; true when there was anything. Throws what solving throws. Any number of threads at once.
   bool prepare(const StudyCase& changed) const;
   /// Any number of threads at once. Tables are those that `prepare` made for its folder; with an empty folder only the
   /// nominal results serve. The model refers to them. Throws InputError, naming the case, for a scene that is not a

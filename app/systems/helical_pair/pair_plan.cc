@@ -111,15 +111,16 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene) {
   const bool integrated = course.compared_cycles > 0;
   const double cycles = course.cycles + runs * course.compared_cycles + (asked ? shares * *asked : 0);
   const double balances = course.balance_s * ((integrated ? 0 : 1 + runs) + (asked ? 0 : shares));
-  // Studies take 4 ms at the ends of a torque and speed grid, some tens where contact is lost; a wave once per turn
-  // makes the window longer.
+  constexpr double of_study = 1e-3;  // its model, and loss of contact at some points
+  const double study_s = of_study + course.balance_s + (asked ? *asked * per_cycle : 0);
   return {{.label = "dynamics of the pair",
            .ring = "",
            .size = {.work = Work::response_pair,
                     .unknowns = (1 + shares) * std::min(period, asked.value_or(period)),
                     .motion_s = balances + cycles * per_cycle,
                     .tasks = static_cast<int>(1 + shares)},
-           .study_s = (period > 1 ? 0.5 : 0.02) + (asked ? *asked * per_cycle : 0)}};
+           .study_s = study_s,
+           .sample_s = study_s}};
 }
 
 void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan) {

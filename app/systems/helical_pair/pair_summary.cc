@@ -126,11 +126,11 @@ std::string pair_text(const PairRunResult& result) {
   std::string text;
   for (const auto& s : result.stiffnesses) {
     if (!std::isfinite(s.value)) continue;
-    text += fmt::format("mean stiffness {:<12} {:>10.4g} N/m along the normal{}\n", s.source, s.value,
-                        s.taken ? "  (applied)" : "");
+    text += fmt::format("mean stiffness {:<12} {} along the normal{}\n", s.source,
+                        text_in_unit(s.value, shown_units::stiffness), s.taken ? "  (applied)" : "");
   }
   if (const auto* taken = result.errors.taken(result.scene))
-    text += fmt::format("mesh error     {:.2f} um: {}, quantile at {}, {} draws ({:.2f} to {:.2f}; exact {:.2f})\n",
+    text += fmt::format("mesh error     {:.2f} µm: {}, quantile at {}, {} draws ({:.2f} to {:.2f}; exact {:.2f})\n",
                         1e6 * result.errors.amplitude, taken->name, to_text(result.errors.problem->probability),
                         result.errors.problem->samples, 1e6 * taken->sample.low, 1e6 * taken->sample.high,
                         1e6 * taken->exact);

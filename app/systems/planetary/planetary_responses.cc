@@ -66,7 +66,8 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
                    .unknowns = static_cast<double>(scene.stage.planets) * std::min(period, asked.value_or(period)),
                    .motion_s = balances + cycles * per_cycle + surface_s + tolerance_seconds(scene)},
           // Studies integrate in time only where a number of cycles is asked for.
-          .study_s = course.balance_s + once};
+          .study_s = course.balance_s + once,
+          .sample_s = course.balance_s + once};
 }
 
 }  // namespace

@@ -65,14 +65,14 @@ void add_cells(std::vector<double>& row, const SharingQuantiles& quantiles) {
 void save(const dynamics::AssemblySharing& sharing, double sun_torque, const std::string& id,
           const std::filesystem::path& folder) {
   const std::vector<std::pair<std::string, std::string>> header = {{"annulus_version", version()}, {"inputs_id", id}};
-  Csv by_torque{.header = header, .columns = {"torque_share", "sun_torque_Nm"}};
+  Csv by_torque{.header = header, .columns = {"torque_share", "sun_torque_Nm"}, .rows = {}};
   add_columns(by_torque.columns, "load_sharing_");
   for (std::size_t i = 0; i < sharing.torque_shares.size(); ++i) {
     const double share = sharing.torque_shares[i];
     auto& row = by_torque.rows.emplace_back(std::vector{share, share * sun_torque});
     add_cells(row, sharing.quantiles[i]);
   }
-  Csv contributions{.header = header, .columns = {"tolerance", "zone_radius_um"}};
+  Csv contributions{.header = header, .columns = {"tolerance", "zone_radius_um"}, .rows = {}};
   add_columns(contributions.columns, "alone_");
   add_columns(contributions.columns, "without_");
   std::string names;
@@ -84,7 +84,7 @@ void save(const dynamics::AssemblySharing& sharing, double sun_torque, const std
     add_cells(row, c.without);
   }
   contributions.header.emplace_back("tolerances", names);
-  Csv assemblies{.header = header, .columns = {"assembly"}};
+  Csv assemblies{.header = header, .columns = {"assembly"}, .rows = {}};
   for (const double share : sharing.torque_shares)
     assemblies.columns.push_back(fmt::format("load_sharing_at_{:g}", share));
   for (std::size_t a = 0; a < sharing.factors.front().size(); ++a) {

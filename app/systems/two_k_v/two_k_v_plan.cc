@@ -134,13 +134,15 @@ std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
       dynamics::integration_seconds(system, stage.sun_mesh_frequency(), asked ? *asked : turns * scene.planet.teeth,
                                     two_k_v_simulation(scene, stage).integrator);
   const auto planned = [&](const std::string& label, const std::string& variant, int compared) {
-    constexpr double other = 0.2;  // vibration over a turn of the crank
-    return PlannedResponse{label,
-                           variant,
-                           {.work = compared > 0 ? Work::response_two_k_v : Work::response_two_k_v_prescribed,
-                            .unknowns = static_cast<double>(scene.planet.teeth),  // one turn of the crank
-                            .motion_s = other + once * (1 + compared)},
-                           once};
+    constexpr double other = 0.2;         // vibration over a turn of the crank
+    constexpr double of_sample = 1.2e-3;  // stiffness, lost motion and modes at one crank angle
+    return PlannedResponse{.label = label,
+                           .ring = variant,
+                           .size = {.work = compared > 0 ? Work::response_two_k_v : Work::response_two_k_v_prescribed,
+                                    .unknowns = static_cast<double>(scene.planet.teeth),  // one turn of the crank
+                                    .motion_s = other + once * (1 + compared)},
+                           .study_s = variant.empty() ? once : 0,  // studies vary the scene as it is
+                           .sample_s = variant.empty() ? of_sample : 0};
   };
   const auto compared = compared_scene(scene);
   std::vector<PlannedResponse> list = {planned("dynamics", "", compared_responses(scene))};

@@ -198,12 +198,14 @@ Blocks pair_verdict(const PairRunResult& result) {
     const auto force = dynamics::loaded_force(f).largest;
     const auto& te = f.dynamic.transmission_error;
     blocks += paragraph(fmt::format(
-        "Largest mesh force {} kN{}, largest acceleration of the teeth {} m/s², transmission error {} µm peak to peak "
-        "about a mean of {} µm.{}",
-        measured(force, 1e-3),
+        "Largest mesh force {}{}, largest acceleration of the teeth {}, transmission error {} peak to peak about a "
+        "mean "
+        "of {}.{}",
+        measured_in_unit(force, shown_units::force),
         std::isfinite(f.dynamic_factor.value) ? fmt::format(" (dynamic factor K_V {})", measured(f.dynamic_factor, 1))
                                               : "",
-        measured(f.acceleration.tooth, 1), measured(te.peak_to_peak, 1e6), um_text(te.mean),
+        measured_in_unit(f.acceleration.tooth, shown_units::acceleration),
+        measured_in_unit(te.peak_to_peak, shown_units::length), text_in_unit(te.mean, shown_units::length),
         f.contact_loss > 0 ? fmt::format(" The teeth lose contact for {:.2g} % of the time.", 100 * f.contact_loss)
                            : std::string(" The teeth never lose contact.")));
     if (!f.steady)

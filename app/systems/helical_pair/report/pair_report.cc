@@ -42,11 +42,12 @@ Section pair_drawings(const PairRunResult& result) {
 Section pair_results(const PairRunResult& result) {
   const auto& stage = result.scene.stage;
   std::string conditions =
-      fmt::format("At {} N m and {} r/min of the pinion, error at mesh frequency {} µm. ", to_text(stage.pinion_torque),
-                  to_text(stage.pinion_speed / units::rpm, 6), to_text(1e6 * result.errors.amplitude, 4));
+      fmt::format("At {} and {} r/min of the pinion, error at mesh frequency {}. ",
+                  text_in_unit(stage.pinion_torque, shown_units::torque), to_text(stage.pinion_speed / units::rpm, 6),
+                  text_in_unit(result.errors.amplitude, shown_units::length));
   if (result.response)
-    conditions += fmt::format("Static mesh force along the normal of the flanks {} kN. ",
-                              to_text(result.response->figures.static_force / 1e3, 5));
+    conditions += fmt::format("Static mesh force along the normal of the flanks {}. ",
+                              text_in_unit(result.response->figures.static_force, shown_units::force, 5));
   if (result.mesh.table && !result.mesh.computed) conditions += "The error of the stiffness table is not known. ";
   return key_results(result,
                      {{"pinion_wheel_", "Mesh along the transverse line of action"},

@@ -18,24 +18,30 @@ std::string section_words(const StageMotion& m) {
 
 PageTable motion_table(const RunResult& result) {
   std::vector<TableRow<StageResponse>> rows;
-  const auto row = [&](const char* label, double scale, double (*value)(const StageMotion&)) {
-    rows.push_back(
-        {label, [=](const StageResponse& r) { return Text(fmt::format("{:.2f}", scale * value(r.motion))); }});
+  const auto responses = responses_of(result);
+  const auto row = [&](const std::string& label, const ShownUnit& declared, double (*value)(const StageMotion&)) {
+    std::vector<double> values;
+    for (const auto& [name, response] : responses) values.push_back(value(response->motion));
+    const auto shown = readable_unit(declared, values);
+    rows.push_back({with_unit(label, shown.unit),
+                    [=](const StageResponse& r) { return Text(to_text(shown.scale * value(r.motion), 4)); }});
   };
-  row("largest force on a planet pin, kN", 1e-3,
+  using shown_units::force;
+  row("largest force on a planet pin", force,
       [](const StageMotion& m) { return *std::max_element(m.pin_force_max.begin(), m.pin_force_max.end()); });
-  row("mean tangential force, all pins, kN", 1e-3, [](const StageMotion& m) {
+  row("mean tangential force, all pins", force, [](const StageMotion& m) {
     const auto& f = m.pin_force_mean_tangential;
     return std::accumulate(f.begin(), f.end(), 0.0) / static_cast<double>(f.size());
   });
-  row("largest force on the sun's support, kN", 1e-3, [](const StageMotion& m) { return m.sun_support_max; });
-  row("largest force on the ring's support, kN", 1e-3, [](const StageMotion& m) { return m.ring_support_max; });
-  row("largest force on the carrier's support, kN", 1e-3, [](const StageMotion& m) { return m.carrier_support_max; });
-  row("mean torque on the housing through the ring, kN m", 1e-3,
+  row("largest force on the sun's support", force, [](const StageMotion& m) { return m.sun_support_max; });
+  row("largest force on the ring's support", force, [](const StageMotion& m) { return m.ring_support_max; });
+  row("largest force on the carrier's support", force, [](const StageMotion& m) { return m.carrier_support_max; });
+  row("mean torque on the housing through the ring", shown_units::torque,
       [](const StageMotion& m) { return m.ring_torque_mean; });
-  row("sun orbit, largest distance from its mean, µm", 1e6, [](const StageMotion& m) { return m.sun_orbit_extent; });
+  row("sun orbit, largest distance from its mean", shown_units::length,
+      [](const StageMotion& m) { return m.sun_orbit_extent; });
   rows.push_back({"repetition of the motion", [](const StageResponse& r) { return Text(section_words(r.motion)); }});
-  return side_by_side(responses_of(result), rows);
+  return side_by_side(responses, rows);
 }
 
 /// Equal ranges for both axes around the middle of the data, one for all plots.

@@ -58,9 +58,9 @@ Page stage_report(const RunResult& result) {
       {.words = fmt::format("{} planets, {} kW at {} r/min of the sun", scene.stage.planets,
                             to_text(scene.stage.power / 1e3), to_text(point.sun_speed / units::rpm, 6)),
        .answer = stage_verdict(result),
-       .results = {key_results(
-                       result, {{"ring_planet_", "Ring meshes"}, {"sun_planet_", "Sun meshes"}, {"", "Stage"}},
-                       fmt::format("At the nominal mesh force of {} kN. ", to_text(point.mean_mesh_force / 1e3, 5))),
+       .results = {key_results(result, {{"ring_planet_", "Ring meshes"}, {"sun_planet_", "Sun meshes"}, {"", "Stage"}},
+                               fmt::format("At the nominal mesh force of {}. ",
+                                           text_in_unit(point.mean_mesh_force, shown_units::force, 5))),
                    comparison_section(result)},
        .meshes = meshes,
        .sections = {tolerances_section(result),

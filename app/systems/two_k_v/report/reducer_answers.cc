@@ -96,10 +96,11 @@ Text agreement(double computed, const Reference::Value& published) {
 }  // namespace
 
 Blocks reducer_verdict(const TwoKVResult& result) {
+  using shown_units::stiffness;
   if (!result.own.vibration)
-    return verdict_box(paragraph(fmt::format("Mean stiffness of a sun mesh {} N/µm, of an arc mesh {} N/µm.",
-                                             to_text(result.own.tables.sun.mean_stiffness().value / 1e6, 4),
-                                             to_text(result.own.tables.arc.mean_stiffness().value / 1e6, 4))));
+    return verdict_box(paragraph(fmt::format("Mean stiffness of a sun mesh {}, of an arc mesh {}.",
+                                             text_in_unit(result.own.tables.sun.mean_stiffness().value, stiffness),
+                                             text_in_unit(result.own.tables.arc.mean_stiffness().value, stiffness))));
   const auto& v = *result.own.vibration;
   const auto& e = v.estimate;
   Text first = "First natural frequency: " + bold(fmt::format("{:.2f} Hz", v.first_frequency()));

@@ -38,13 +38,15 @@ Blocks arc_pins_blocks(const TwoKVResult& result) {
   }
   if (!over_load.series.empty()) pictures.emplace_back(over_load);
   return heading("Arc teeth on their pins") +
-         paragraph(fmt::format("{} of {} pins carry load. The largest force is {} N. The formula of the paper gives {} "
-                               "N at the same torque of {} N m on one gear, and {} N at the uneven share of {} of the "
-                               "load. At this share, the stiffness formula of the paper gives {} N/µm.",
-                               position.loaded, arc.pins, to_text(position.force.maxCoeff(), 4), to_text(formula, 4),
-                               to_text(even, 4), to_text(dynamics::largest_pin_force(arc, uneven), 4),
-                               to_text(dynamics::uneven_share),
-                               to_text(dynamics::printed_stiffness(arc, uneven) / 1e6, 4))) +
+         paragraph(
+             fmt::format("{} of {} pins carry load. The largest force is {}. The formula of the paper gives {} at "
+                         "the same torque of {} on one gear, and {} at the uneven share of {} of the load. At "
+                         "this share, the stiffness formula of the paper gives {}.",
+                         position.loaded, arc.pins, text_in_unit(position.force.maxCoeff(), shown_units::force),
+                         text_in_unit(formula, shown_units::force), text_in_unit(even, shown_units::torque),
+                         text_in_unit(dynamics::largest_pin_force(arc, uneven), shown_units::force),
+                         to_text(dynamics::uneven_share),
+                         text_in_unit(dynamics::printed_stiffness(arc, uneven), shown_units::stiffness))) +
          Pictures{pictures,
                   {{"equilibrium of all pins", 2}, {"the paper's formula (dashed)", 6}},
                   "The gear pushes the pins on one side of the line of centres. The force of a pin increases with its "
