@@ -19,6 +19,8 @@ struct Figure {
 struct Spread {
   double low = 0, median = 0, high = 0;  ///< 5 %, 50 %, 95 %
   int samples = 0;
+
+  [[nodiscard]] Spread scaled(double scale) const { return {scale * low, scale * median, scale * high, samples}; }
 };
 
 /// Which change of a result an engineer wants.

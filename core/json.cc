@@ -36,6 +36,13 @@ Json to_json(const Figure& figure) {
 
 Figure figure_of(const Json& json) { return {number_of(json.at("value")), number_of(json.at("error"))}; }
 
+Json to_json(const Spread& spread) {
+  return {{"quantile_05", json_number(spread.low)},
+          {"median", json_number(spread.median)},
+          {"quantile_95", json_number(spread.high)},
+          {"samples", spread.samples}};
+}
+
 Json to_json(const FigureSet& figures) {
   Json json = Json::object();
   for (const auto& entry : figures.entries()) {
@@ -44,11 +51,7 @@ Json to_json(const FigureSet& figures) {
     const bool known = std::any_of(error_part_names.begin(), error_part_names.end(),
                                    [&](const auto& name) { return parts.*name.second != 0; });
     if (known) item["error_parts"] = to_json(parts);
-    if (const auto& s = entry.spread)
-      item["spread"] = {{"quantile_05", json_number(s->low)},
-                        {"median", json_number(s->median)},
-                        {"quantile_95", json_number(s->high)},
-                        {"samples", s->samples}};
+    if (entry.spread) item["spread"] = to_json(*entry.spread);
   }
   return json;
 }

@@ -27,6 +27,9 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const Figure& figure);
 [[nodiscard]] Figure figure_of(const Json& json);
 
+/// {"quantile_05": 1, "median": 2, "quantile_95": 3, "samples": 20}.
+[[nodiscard]] Json to_json(const Spread& spread);
+
 /// {key: {"value": 1, "error": 0.1, "error_parts": {...}, "spread": {...}}}; the parts only where one is not zero, the
 /// spread where there is one.
 [[nodiscard]] Json to_json(const FigureSet& figures);

@@ -17,23 +17,26 @@ std::vector<const ComparedVariant*> all_variants(const std::vector<ComparedRun>&
   return list;
 }
 
-ComparedQuantity quantity_of(const FigureSpec& spec, const std::vector<const ComparedVariant*>& variants) {
-  ComparedQuantity compared{.spec = &spec, .si = {spec.quantity, spec.title, {}, spec.digits}};
+ComparedQuantity quantity_of(const FigureSpec& declared, const std::vector<const ComparedVariant*>& variants) {
   std::vector<double> values;
-  for (const auto* variant : variants) values.push_back(variant->figures.value(spec.key));
-  const auto [unit, scale] = readable_unit({spec.unit, spec.scale}, values);
+  for (const auto* variant : variants) values.push_back(variant->figures.value(declared.key));
+  const auto spec = in_readable_unit(declared, values);
+  ComparedQuantity compared{.spec = spec, .si = {spec.quantity, spec.title, {}, spec.digits}};
   compared.shown = compared.si;
-  if (!unit.empty()) compared.shown.name += ", " + unit;
+  if (!spec.unit.empty()) compared.shown.name += ", " + spec.unit;
   for (const auto* variant : variants) {
-    const auto [value, error] = variant->figures.figure(spec.key);
-    const bool known = std::isfinite(value);
-    const Measured shown{variant->name, value * scale, error * scale};
-    compared.cells.push_back(known ? measured(shown.value, shown.error) : "–");
     const auto* entry = variant->figures.find(spec.key);
     const auto spread = entry ? entry->spread : std::nullopt;
     compared.has_spread |= spread.has_value();
-    compared.spreads.push_back(spread ? spread_text(*spread, scale) : "–");
-    if (!known) continue;
+    compared.spreads.push_back(spread ? spread_text(*spread, spec.scale) : "–");
+    const auto [value, error] = variant->figures.figure(spec.key);
+    if (!std::isfinite(value)) {
+      compared.cells.emplace_back("–");
+      continue;
+    }
+    Measured shown{variant->name, value * spec.scale, error * spec.scale};
+    if (spread) shown.spread = spread->scaled(spec.scale);
+    compared.cells.push_back(measured(shown.value, shown.error));
     compared.si.rings.push_back({variant->name, value, error, spread});
     compared.shown.rings.push_back(shown);
   }

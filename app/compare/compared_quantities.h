@@ -11,9 +11,9 @@ namespace annulus::app {
 
 /// A result over all variants of all runs.
 struct ComparedQuantity {
-  const FigureSpec* spec = nullptr;
+  FigureSpec spec;                         ///< in a unit that suits all variants
   RingQuantity si{};                       ///< the variants that have it
-  RingQuantity shown{};                    ///< the same in the unit people read it in, which its name states
+  RingQuantity shown{};                    ///< the same in that unit, which its name states
   std::vector<std::string> cells{};        ///< of all variants, with errors; "–" where one does not have it
   std::vector<std::string> spreads{};      ///< of all variants; "–" where one has no samples
   bool has_spread = false;                 ///< of any variant

@@ -143,13 +143,10 @@ Json comparison_json(const std::vector<ComparedRun>& runs) {
   Json json = {{"kind", runs.front().kind}, {"results", Json::array()}, {"inputs_that_differ", Json::array()}};
   const Comparison comparison(runs);
   for (const auto& quantity : comparison.quantities) {
-    Json item = {{"key", quantity.spec->key}, {"unit", quantity.spec->unit}};
+    Json item = {{"key", quantity.spec.key}, {"unit", quantity.spec.unit}};
     for (const auto& m : quantity.shown.rings) {
       Json value = {{"variant", m.ring}, {"value", json_number(m.value)}, {"error", json_number(m.error)}};
-      if (const auto& s = m.spread)
-        value["spread"] = {{"quantile_05", json_number(quantity.spec->scale * s->low)},
-                           {"median", json_number(quantity.spec->scale * s->median)},
-                           {"quantile_95", json_number(quantity.spec->scale * s->high)}};
+      if (m.spread) value["spread"] = to_json(*m.spread);
       item["values"].push_back(std::move(value));
     }
     json["results"].push_back(std::move(item));
@@ -164,11 +161,11 @@ std::string comparison_csv(const std::vector<ComparedRun>& runs) {
   for (const auto& run : runs) text += "# run: " + csv_line(run.name + " = " + run.folder.string()) + "\n";
   text += "figure,unit,variant,value,error,difference_to_first,errors_together,against_first\n";
   for (const auto& quantity : Comparison(runs).quantities) {
-    const auto* spec = quantity.spec;
+    const auto& spec = quantity.spec;
     const auto& shown = quantity.shown;
     const auto& first = shown.rings.front();
     for (const auto& m : shown.rings) {
-      text += fmt::format("{},{},{},{},{},", csv_cell(spec->title), spec->unit, csv_cell(m.ring), csv_cell(m.value),
+      text += fmt::format("{},{},{},{},{},", csv_cell(spec.title), spec.unit, csv_cell(m.ring), csv_cell(m.value),
                           csv_cell(m.error));
       text += &m == &first ? ",,\n"
                            : fmt::format("{},{},{}\n", csv_cell(m.value - first.value), csv_cell(m.error + first.error),

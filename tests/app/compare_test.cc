@@ -96,19 +96,19 @@ BOOST_AUTO_TEST_CASE(differences_are_held_against_the_error_bars_together) {
       app::read_finished_runs({at("first", 1e9, 0.01), at("apart", 1.05e9, 0.01), at("near", 1.015e9, 0.01),
                                at("equal", 1e9, 0.02), finished(folder.path() / "unknown", unknown)});
   const auto text = app::comparison_text(runs);
-  const std::string what = "  Mean stiffness of the ring mesh, N/µm: ";
-  BOOST_TEST(has_text(text, what + "'apart' 1050 is 5 % larger than 'first' 1000, more than the error bars together"));
-  BOOST_TEST(has_text(text, what + "'first' 1000 and 'near' 1015 differ by less than the error bars"));
+  const std::string what = "  Mean stiffness of the ring mesh, kN/µm: ";
+  BOOST_TEST(has_text(text, what + "'apart' 1.05 is 5 % larger than 'first' 1, more than the error bars together"));
+  BOOST_TEST(has_text(text, what + "'first' 1 and 'near' 1.015 differ by less than the error bars"));
   BOOST_TEST(has_text(text, what + "'first' and 'equal' are the same"));
-  BOOST_TEST(has_text(text, what + "'first' 1000 and 'unknown' 2000 have no known error"));
-  BOOST_TEST(has_text(text, "1000 ± 10"));
+  BOOST_TEST(has_text(text, what + "'first' 1 and 'unknown' 2 have no known error"));
+  BOOST_TEST(has_text(text, "1.000 ± 0.010"));
   BOOST_TEST(has_text(text, "12.50 s, 346 MB, 1 results read back"));
 
   const auto csv = app::comparison_csv(runs);
-  const auto rows = rows_with(csv, "Mean stiffness of the ring mesh,N/µm,");
+  const auto rows = rows_with(csv, "Mean stiffness of the ring mesh,kN/µm,");
   BOOST_TEST_REQUIRE(rows.size() == 5U);
-  BOOST_TEST(has_text(rows[0], ",first,1000,10,,,"));
-  BOOST_TEST(has_text(rows[4], ",unknown,2000,,1000,,"));
+  BOOST_TEST(has_text(rows[0], ",first,1,0.01,,,"));
+  BOOST_TEST(has_text(rows[4], ",unknown,2,,1,,"));
   BOOST_TEST(has_text(rows_with(csv, "Dynamic factor of the sun meshes,").at(0), ",first,1.3,0.01,"));
   BOOST_TEST(has_text(rows_with(csv, "Natural frequency 1,Hz").at(0), ",first,400,2,"));
   BOOST_TEST(has_text(rows_with(csv, "Natural frequency 2,Hz").at(0), ",first,500,,"));

@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(eccentric_planets_meet_their_worst_cycle) {
     std::complex<double> sum = 0;  // e_sn + e_rn as phasors
     for (int n = 0; n < 4; ++n)
       for (const auto& errors : {sun_mesh_errors(s, n), ring_mesh_errors(s, n)})
-        for (const auto& e : errors) sum += (n % 2 ? -1.0 : 1.0) * std::polar(e.amount, e.phase);
+        for (const auto& e : errors) sum += (n % 2 ? -1.0 : 1.0) * e.amount * std::polar(1.0, e.phase);
     const double excess = in_series / 4 * std::abs(sum) / s.mean_mesh_force();
     const double found = error_period_sharing(s, {1}).factors.front() - 1;
     record.at_most("excess of the load-sharing factor over its amplitude", "", found / excess, 1 + 1e-9, "rounding");

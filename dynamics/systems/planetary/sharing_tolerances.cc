@@ -97,7 +97,7 @@ class LinearForces {
                                       : ring_mesh_errors(stage, static_cast<int>(m - planets));
       for (const auto& error : errors)
         by_rate.try_emplace(error.rate, Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(2 * planets)))
-            .first->second[static_cast<Eigen::Index>(m)] += std::polar(error.amount, error.phase);
+            .first->second[static_cast<Eigen::Index>(m)] += error.amount * std::polar(1.0, error.phase);
     }
     const auto repeat = static_cast<long>(perfect.force.size());
     for (const auto& [rate, amplitudes] : by_rate) {
