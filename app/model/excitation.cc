@@ -20,7 +20,7 @@ dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult&
   // A single load does not determine the stiffness at others.
   if (mesh.table.loads().size() == 1) dependence = dynamics::LoadDependence::nominal;
   auto stiffness = dynamics::table_stiffness(mesh.table, nominal_load, 0, dependence);
-  if (mesh.table.positions() == 1) stiffness.back_flank_phase = back_flank_phase;
+  stiffness.back_flank_phase = back_flank_phase;
   return stiffness;
 }
 

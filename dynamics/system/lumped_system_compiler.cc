@@ -145,8 +145,9 @@ void LumpedSystemCompiler::compile_excitation(const MeshElement& mesh, CompiledM
     m.kind = CompiledMesh::Kind::table;
     m.table = shared_bundle(c.bundles, CurveBundle({&table->secant, &table->unloaded_te}));
     m.phase_offset -= table->phase_shift;
-    // Meshes without backlash pull with their driving flanks.
-    m.mirrored = !m.linear && table->back_flank_phase.has_value();
+    // Without backlash it changes from one flank to the other where its force changes sign.
+    m.mirrored = table->back_flank_phase.has_value();
+    m.linear = m.linear && !m.mirrored;
     m.back_flank_phase = table->back_flank_phase.value_or(0.0);
     if (table->surface) {
       c.surfaces.push_back(table->surface);

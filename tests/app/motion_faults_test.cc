@@ -113,6 +113,16 @@ BOOST_AUTO_TEST_CASE(back_flanks_that_carry_are_reported) {
     BOOST_TEST(factor > 0);
     sum += factor;
   }
+  // The pins may stand elsewhere under back flanks, which is part of the error of the ring meshes.
+  BOOST_TEST(ring.at("back_flanks").at("ring_planet").at(3).get<double>() == 1.0, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(runs.summary("out")
+                 .at("variants")
+                 .at(0)
+                 .at("figures")
+                 .at("ring_planet_load_sharing_averaged")
+                 .at("error_parts")
+                 .at("model_choice")
+                 .get<double>() > 0);
   // Three planets carry what the fourth turns back, too.
   BOOST_TEST(sum > 4);
   BOOST_TEST(ring.at("load_sharing").at("sun_planet").at("instantaneous").at("value").get<double>() <= 4.0);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/model/table_errors.h"
 
 namespace annulus::app {
@@ -42,17 +45,46 @@ dynamics::Evaluation evaluation_of(const DynamicResponse& response) {
   return evaluation;
 }
 
+/// Whether back flanks carry at times on a table that changes from tooth to tooth.
+bool on_back_flanks(const MeshKindResult& kind, const MeshResult& mesh) {
+  return mesh.tabulated && mesh.table.positions() > 1 &&
+         std::any_of(kind.branches.begin(), kind.branches.end(), [](const auto& b) { return b.back_flanks > 0; });
+}
+
+/// The stage with the supports of its ring half their pattern further for back flanks: where they stand is not known.
+dynamics::PlanetaryStage with_moved_supports(dynamics::PlanetaryStage stage, int positions) {
+  if (auto* table = std::get_if<dynamics::TableStiffness>(&stage.ring_mesh))
+    table->back_flank_phase = table->back_flank_phase.value_or(0) + positions / 2;
+  return stage;
+}
+
+/// Adds to the model's part of every error what the place of the supports under back flanks changes.
+void add_back_flanks(const StageTables& tables, const dynamics::ComparisonOptions& way, FigureSet& figures) {
+  const auto nominal = tables.make(tables.sun_mesh, tables.ring_mesh);
+  const auto on = [&](const dynamics::PlanetaryStage& stage) {
+    return evaluation_of(dynamics::simulate(stage, way.simulation)).figures;
+  };
+  const auto here = on(nominal), there = on(with_moved_supports(nominal, tables.ring_mesh.table.positions()));
+  const auto known = figures;
+  for (const auto& entry : known.entries()) {
+    auto parts = entry.parts;
+    parts.model += std::abs(there.value(entry.key) - here.value(entry.key));
+    figures.set(entry.key, {entry.figure.value, parts.total()}, parts);
+  }
+}
+
 }  // namespace
 
 ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::SimulationOptions& options,
                               const StageTables& tables) {
   const auto way = dynamics::comparison_options(nominal, options);
-  const auto found = with_table_errors(
+  auto found = with_table_errors(
       evaluation_of(nominal), {&tables.sun_mesh, &tables.ring_mesh},
       [&](const std::vector<const MeshResult*>& changed) {
         return evaluation_of(dynamics::simulate(tables.make(*changed.front(), *changed.back()), way.simulation));
       },
       way);
+  if (on_back_flanks(nominal.ring_planet, tables.ring_mesh)) add_back_flanks(tables, way, found);
   ResponseErrors errors;
   for_each_figure(nominal, errors,
                   [&](const std::string& key, const Figure&, ErrorParts& parts) { parts = found.find(key)->parts; });

@@ -28,7 +28,8 @@ struct StageTables {
 };
 
 /// The parts of the error of every figure of `nominal`, which was simulated with `options` on `tables`, by
-/// dynamics/error_propagation. Prescribed stiffness is exact.
+/// dynamics/error_propagation. Prescribed stiffness is exact. Where back flanks carry on a ring that changes from tooth
+/// to tooth, the model's part has what the results change when its supports stand elsewhere under them.
 [[nodiscard]] ResponseErrors carried_errors(const dynamics::DynamicResponse& nominal,
                                             const dynamics::SimulationOptions& options, const StageTables& tables);
 
