@@ -172,6 +172,12 @@ void declare(CLI::App& app, Arguments& arguments) {
   check->add_flag("--strict", arguments.strict, "Fail on warnings; notes do not count as warnings");
   check->add_flag("--json", arguments.json, "Warnings as JSON");
   examples(check, "  annulus check my.toml\n  annulus check my.toml --strict");
+  auto* geometry =
+      add_command(app, arguments, "geometry", "Drawing data of the gears: diameters, spans, pins, contact");
+  geometry->add_flag("--json", arguments.json, "As JSON");
+  examples(geometry,
+           "  annulus geometry my.toml\n"
+           "  annulus geometry my.toml --json | jq .gears.sun.span_mm");
 
   auto* send = app.add_subcommand("export", "Results and gear data in the formats of other programs");
   send->add_option("file", arguments.scene, "A table of a run (CSV), or a scene for rexs")->required();
@@ -259,7 +265,7 @@ void check_system_limits(const std::string& command, const Arguments& arguments)
       ensure_stack();
       return reserve_blas_memory(arguments.threads);
     }
-  if (command == "plan" || command == "check") reserve_blas_memory(1);
+  if (command == "plan" || command == "check" || command == "geometry") reserve_blas_memory(1);
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -305,6 +311,7 @@ int parse_and_run(int argc, char** argv) {
       {"compare", [&] { compare_command(arguments); }},
       {"plan", [&] { plan_command(arguments); }},
       {"check", [&] { check_command(arguments); }},
+      {"geometry", [&] { geometry_command(arguments); }},
       {"export", [&] { export_command(arguments); }},
       {"cache", [&] { cache_command(arguments); }},
       {"new", [&] { new_command(arguments); }},
@@ -315,7 +322,7 @@ int parse_and_run(int argc, char** argv) {
     check_system_limits(command, arguments);
     commands.at(command)();
     // What stands in the buffer is written only now.
-    return std::fflush(stdout) == 0 ? done : fail(no_output, wrong_input);
+    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 ? done : fail(no_output, wrong_input);
   } catch (const InputError& error) {
     return fail(error.what(), wrong_input);
   } catch (const FileError& error) {

@@ -195,6 +195,15 @@ void plan_command(const Arguments& arguments) {
   check_limits(scene, limits_of(arguments), arguments.threads);
 }
 
+void geometry_command(const Arguments& arguments) {
+  const Scene scene = read_scene_with(arguments.scene, arguments.settings);
+  check_stage(scene);
+  const auto data = make_system(scene)->drawing();
+  if (data.gears.empty())
+    throw InputError(fmt::format("{}: a stage of kind \"{}\" has no drawing data", arguments.scene, scene.stage.kind));
+  fmt::print("{}", arguments.json ? drawing_json(data).dump(2) + "\n" : drawing_text(data));
+}
+
 void check_command(const Arguments& arguments) {
   const Scene scene = read_scene_with(arguments.scene, arguments.settings);
   check_stage(scene);

@@ -26,6 +26,7 @@ void tradeoff_command(const Arguments& arguments);
 void plan_command(const Arguments& arguments);
 void compare_command(const Arguments& arguments);
 void check_command(const Arguments& arguments);
+void geometry_command(const Arguments& arguments);
 void export_command(const Arguments& arguments);
 void cache_command(const Arguments& arguments);
 void new_command(const Arguments& arguments);

@@ -75,7 +75,9 @@ GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance
   const double wheel_pitch_radius = wheel_.base_radius() / cosine;
   const double along_action = pinion_.base_pitch() - cosine * (pinion_.tooth_thickness(planet_pitch_radius) +
                                                                wheel_.tooth_thickness(wheel_pitch_radius));
-  normal_backlash_ = along_action * std::cos(pinion_.base_helix_angle());
+  constexpr double rounding = 1e-13;  // of a difference of pitches
+  if (std::abs(along_action) > rounding * pinion_.base_pitch())
+    normal_backlash_ = along_action * std::cos(pinion_.base_helix_angle());
   const double module = pinion_.parameters().module;
   if (normal_backlash_ < -backlash_tolerance * module) {
     const double shift = -normal_backlash_ / (2 * module * std::sin(pinion_.parameters().pressure_angle));

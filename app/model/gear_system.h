@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model/drawing_data.h"
 #include "app/model/lumped_model.h"
 #include "app/model/mesh_result.h"
 #include "app/plan/cost_plan.h"
@@ -49,6 +50,8 @@ class GearSystem {
 
   /// Geometry and whatever else needs no solving. Throws InputError and GeometryError without a place in the scene.
   virtual void check() const = 0;
+  /// Its involute gears and their pairs, for a drawing.
+  [[nodiscard]] virtual DrawingData drawing() const { return {}; }
   /// The meshes that are solved, and those whose stiffness is prescribed; the same number for every changed scene.
   [[nodiscard]] virtual std::vector<MeshModel> meshes() const = 0;
   /// N, of every mesh: the load at which the lumped model reads the tables.

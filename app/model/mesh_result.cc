@@ -132,8 +132,8 @@ Estimate MeshResult::lte_mean() const {
 namespace {
 
 /// How far a curve sampled at equal steps and closed on itself may reach beyond its highest sample. A kink between two
-/// samples lies below where the lines through the neighbours on either side meet; a smooth top, below the half of it; a
-/// branch that ends in a jump goes on up to there.
+/// samples lies near where the lines through the neighbours on either side meet, a smooth top below the half of it; a
+/// branch that ends in a jump goes on up to there. Branches that grow steeper towards it go on doing so.
 double beyond_the_highest(const std::vector<double>& values) {
   const auto n = static_cast<std::ptrdiff_t>(values.size());
   if (n < 4) return 0;
@@ -143,11 +143,13 @@ double beyond_the_highest(const std::vector<double>& values) {
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     // Between samples i and i + 1: rising with the slope before, falling with the slope after.
     const double rise = at(i) - at(i - 1), fall = at(i + 1) - at(i + 2), step = at(i + 1) - at(i);
+    const double up = rise + std::max(0.0, rise - (at(i - 1) - at(i - 2))),
+                 down = fall + std::max(0.0, fall - (at(i + 2) - at(i + 3)));
     if (jumps(rise, step, fall)) {
-      reach = std::max(reach, std::max(at(i) + std::max(rise, 0.0), at(i + 1) + std::max(fall, 0.0)) - highest);
+      reach = std::max(reach, std::max(at(i) + std::max(up, 0.0), at(i + 1) + std::max(down, 0.0)) - highest);
     } else if (rise > 0 && fall > 0) {
-      const double place = (step + fall) / (rise + fall);  // in steps from i
-      reach = std::max(reach, at(i) + rise * std::clamp(place, 0.0, 1.0) - highest);
+      const double place = (step + down) / (up + down);  // in steps from i
+      reach = std::max(reach, at(i) + up * std::clamp(place, 0.0, 1.0) - highest);
     }
   }
   return reach;

@@ -22,22 +22,27 @@ OperatingPoint operate(const StageInput& stage, const geometry::PlanetarySet& se
 
 }  // namespace
 
+geometry::GearParameters gear_parameters(const Scene& scene, const GearInput& input, geometry::GearKind kind,
+                                         int hand) {
+  return {.kind = kind,
+          .teeth = input.teeth,
+          .module = scene.stage.module,
+          .pressure_angle = scene.stage.pressure_angle,
+          .profile_shift = input.profile_shift,
+          .face_width = scene.stage.face_width,
+          .tip_diameter = input.tip_diameter,
+          .root_diameter = input.root_diameter,
+          .root_fillet_factor = input.root_fillet_factor,
+          .tip_relief = input.tip_relief,
+          .tip_relief_length = input.tip_relief_length,
+          .profile_crowning = input.profile_crowning,
+          .lead_crowning = input.lead_crowning,
+          .lead_slope = input.lead_slope,
+          .helix_angle = hand * scene.stage.helix_angle};
+}
+
 geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::GearKind kind, int hand) {
-  return geometry::Gear({.kind = kind,
-                         .teeth = input.teeth,
-                         .module = scene.stage.module,
-                         .pressure_angle = scene.stage.pressure_angle,
-                         .profile_shift = input.profile_shift,
-                         .face_width = scene.stage.face_width,
-                         .tip_diameter = input.tip_diameter,
-                         .root_diameter = input.root_diameter,
-                         .root_fillet_factor = input.root_fillet_factor,
-                         .tip_relief = input.tip_relief,
-                         .tip_relief_length = input.tip_relief_length,
-                         .profile_crowning = input.profile_crowning,
-                         .lead_crowning = input.lead_crowning,
-                         .lead_slope = input.lead_slope,
-                         .helix_angle = hand * scene.stage.helix_angle});
+  return geometry::Gear(gear_parameters(scene, input, kind, hand));
 }
 
 double outside_radius(const Scene& scene, const RingInput& ring) {

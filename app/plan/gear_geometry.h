@@ -45,6 +45,8 @@ auto geometry_of(const std::string& name, Make make) {
 }
 
 /// A gear of the scene. `hand`: 1 for the hand of stage.helix_angle_deg, -1 for the other.
+[[nodiscard]] geometry::GearParameters gear_parameters(const Scene& scene, const GearInput& input,
+                                                       geometry::GearKind kind, int hand = 1);
 [[nodiscard]] geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::GearKind kind,
                                        int hand = 1);
 

@@ -10,15 +10,61 @@ namespace annulus::app {
 
 enum class Flanks { external, internal };
 
-/// teeth, profile_shift
+/// profile_shift_from and what it needs; for kinds that resolve it (systems/shared/profile_shifts.h).
 template <class Section>
-void declare_teeth(Declarations<Section>& t, Flanks flanks) {
+void declare_shift_sources(Declarations<Section>& t, Flanks flanks, const char* mate) {
+  const bool internal = flanks == Flanks::internal;
+  t.choice("profile_shift_from", &Section::shift_from,
+           {{"centre_distance", ShiftSource::centre_distance},
+            {"tip_diameter", ShiftSource::tip_diameter},
+            {"root_diameter", ShiftSource::root_diameter},
+            {"span", ShiftSource::span},
+            {"pins", ShiftSource::pins}},
+           std::string("What the profile shift follows from, instead of profile_shift. centre_distance: it and the "
+                       "shift of the ") +
+               mate +
+               ", with the backlash of normal_backlash_um. tip_diameter, root_diameter: these and an addendum of one "
+               "module or a dedendum of 1.25 modules. span, pins: the measured dimension.")
+      .instead_of({"profile_shift"});
+  const auto from = [](const char* source) { return is("profile_shift_from", {source}); };
+  t.key("normal_backlash_um", &Section::normal_backlash,
+        std::string("Backlash, normal to the flanks, that the profile shift leaves in mesh with the ") + mate + ".")
+      .from(0, 1e4)
+      .only_if(from("centre_distance"))
+      .fallback(0.0, "no backlash");
+  t.key("span_mm", &Section::span,
+        internal ? "Base tangent length over span_teeth spaces." : "Base tangent length over span_teeth teeth.")
+      .above(0, 1e5)
+      .needed_if(from("span"));
+  t.key("span_teeth", &Section::span_teeth, internal ? "Spaces of span_mm." : "Teeth of span_mm.")
+      .from(1, 1000)
+      .needed_if(from("span"));
+  t.key("over_pins_mm", &Section::over_pins,
+        internal ? "Dimension between two pins (balls for helical teeth) of measuring_pin_mm in opposite spaces."
+                 : "Dimension over two pins (balls for helical teeth) of measuring_pin_mm in opposite spaces.")
+      .above(0, 1e5)
+      .needed_if(from("pins"));
+  t.key("measuring_pin_mm", &Section::measuring_pin, "Diameter of the pins of over_pins_mm.")
+      .above(0, 1e4)
+      .needed_if(from("pins"));
+}
+
+inline constexpr double least_shift = -2, largest_shift = 3;  // modules
+
+/// teeth, profile_shift; `mate`: of a gear whose shift may follow from a drawing, with the keys for that.
+template <class Section>
+void declare_teeth(Declarations<Section>& t, Flanks flanks, const char* mate = nullptr) {
   t.key("teeth", &Section::teeth, "Number of teeth.").required().from(5, 2000);
-  t.key("profile_shift", &Section::profile_shift,
-        flanks == Flanks::internal ? "Profile shift in modules; positive moves the tooth space outwards."
-                                   : "Profile shift in modules; positive moves the rack outwards.")
-      .required()
-      .from(-2, 3);
+  auto shift = t.key("profile_shift", &Section::profile_shift,
+                     flanks == Flanks::internal ? "Profile shift in modules; positive moves the tooth space outwards."
+                                                : "Profile shift in modules; positive moves the rack outwards.");
+  shift.from(least_shift, largest_shift);
+  if (mate == nullptr) {
+    shift.required();
+    return;
+  }
+  shift.absent("follows from profile_shift_from");
+  declare_shift_sources(t, flanks, mate);
 }
 
 /// mass_kg

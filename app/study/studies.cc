@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/model/gear_system.h"
+#include "app/model/run_options.h"
 #include "app/scene/input_place.h"
 #include "core/errors.h"
 #include "core/stopwatch.h"

@@ -14,7 +14,7 @@ namespace annulus {
 
 namespace {
 
-app::RunResult run_text(const std::string& text, const std::filesystem::path& out) {
+app::RunResult run_toleranced(const std::string& text, const std::filesystem::path& out) {
   log::set_level(log::Level::quiet);
   return app::run(app::parse_scene(text, "scene.toml"), {.out = out, .threads = 2});
 }
@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(zones_follow_from_class_and_tolerances) {
 BOOST_AUTO_TEST_CASE(results_files_and_report) {
   const test::TemporaryFolder folder("tolerances");
   const auto text = test::quick_scene() + table;
-  const auto result = run_text(text, folder.path());
+  const auto result = run_toleranced(text, folder.path());
   BOOST_TEST_REQUIRE(result.rings.front().tolerances);
   const auto& sharing = result.rings.front().tolerances->sharing;
   BOOST_TEST(sharing.torque_shares == (std::vector<double>{0.25, 0.5, 0.75, 1, 1.25}),
@@ -80,11 +80,11 @@ BOOST_AUTO_TEST_CASE(results_files_and_report) {
   const auto p95 = result.rings.front().tolerances->figure(&dynamics::SharingQuantiles::p95, sharing.nominal());
   BOOST_TEST(p95.error >= sharing.quantiles[3].p95.high - p95.value);
   // Another run computes nothing again; another seed does.
-  const auto again = run_text(text, folder.path());
+  const auto again = run_toleranced(text, folder.path());
   BOOST_TEST(read_file(folder.path() / "held/dynamics/tolerance_sharing.csv").find("load_sharing_p95") !=
              std::string::npos);
   BOOST_TEST((again.rings.front().tolerances->sharing.factors == sharing.factors));
-  const auto other = run_text(text + "seed = 2\n", folder.path());
+  const auto other = run_toleranced(text + "seed = 2\n", folder.path());
   BOOST_TEST((other.rings.front().tolerances->sharing.factors != sharing.factors));
 }
 

@@ -35,10 +35,17 @@ struct MaterialInput {
   double youngs_modulus = 0, poisson_ratio = 0, density = 0;
 };
 
+/// Where a profile shift comes from.
+enum class ShiftSource { given, centre_distance, tip_diameter, root_diameter, span, pins };
+
 /// What sun, planet and ring have in common.
 struct GearInput {
   int teeth = 0;
   double profile_shift = 0;
+  ShiftSource shift_from = ShiftSource::given;
+  std::optional<double> normal_backlash;                 ///< m, in mesh with its mate
+  std::optional<int> span_teeth;                         ///< or spaces
+  std::optional<double> span, over_pins, measuring_pin;  ///< m
   std::optional<double> mass, inertia;
   std::optional<double> tip_diameter, root_diameter;
   double root_fillet_factor = 0;

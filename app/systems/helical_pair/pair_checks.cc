@@ -9,6 +9,7 @@
 #include "app/systems/helical_pair/pair_model.h"
 #include "app/systems/helical_pair/pair_scene.h"
 #include "app/systems/helical_pair/pair_stiffness.h"
+#include "app/systems/shared/profile_shifts.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -76,6 +77,9 @@ class PairChecker : KeyChecks {
 
   /// Derived inputs, and checks that need the geometry of the gears.
   void geometry() {
+    resolve_profile_shifts(scene_, problems_,
+                           {{"pinion", &scene_.pinion, geometry::GearKind::external, &scene_.wheel, "wheel"},
+                            {"wheel", &scene_.wheel, geometry::GearKind::external, &scene_.pinion, "pinion"}});
     for (const auto& [name, gear] : {std::pair{"pinion", &scene_.pinion}, {"wheel", &scene_.wheel}}) {
       const auto inertia = pair_inertia(scene_, *gear);
       if (!given(std::string(name) + ".inertia_kg_m2") && inertia)

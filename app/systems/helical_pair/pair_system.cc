@@ -28,6 +28,11 @@ class PairSystem final : public GearSystem {
 
   void check() const override { check_pair_geometry(scene(), make_pair_geometry(scene())); }
 
+  [[nodiscard]] DrawingData drawing() const override {
+    const auto geometry = make_pair_geometry(scene());
+    return {{{"pinion", geometry.pinion()}, {"wheel", geometry.wheel()}}, {{"pinion and wheel", geometry.gears}}};
+  }
+
   [[nodiscard]] std::vector<MeshModel> meshes() const override {
     return {pair_mesh_model(scene(), make_pair_geometry(scene()))};
   }

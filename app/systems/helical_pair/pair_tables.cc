@@ -19,7 +19,7 @@ Table pair_stage_table() {
 
 Table pair_gear_table(const char* path, const char* meaning, PairGearInput Scene::*member) {
   Declarations gear(path, meaning, member);
-  declare_teeth(gear, Flanks::external);
+  declare_teeth(gear, Flanks::external, "other gear");
   declare_mass(gear);
   declare_inertia(gear).absent("½ m r² of a solid disc, r: reference circle");
   declare_flanks(gear, Flanks::external);

@@ -16,6 +16,7 @@
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/ring_structures.h"
+#include "app/systems/shared/profile_shifts.h"
 #include "core/errors.h"
 #include "core/units.h"
 
@@ -30,6 +31,7 @@ class PlanetaryChecker : KeyChecks {
   void run() {
     planet_angles();
     errors();
+    profile_shifts();
     ring_names();
     // Problems of rings with the same name could not be assigned, so only the first one is checked.
     std::set<std::string> seen;
@@ -58,6 +60,15 @@ class PlanetaryChecker : KeyChecks {
                angles.back() >= 2 * std::numbers::pi) {
       problem(key, "angles must increase and stay below 360");
     }
+  }
+
+  void profile_shifts() {
+    using geometry::GearKind;
+    std::vector<ShiftedGear> gears = {{"sun", &scene_.sun, GearKind::external, &scene_.planet, "planet"},
+                                      {"planet", &scene_.planet, GearKind::external, &scene_.sun, "sun"}};
+    for (auto& ring : scene_.rings)
+      gears.push_back({"ring", &ring, GearKind::internal, &scene_.planet, "planet", ring.name});
+    resolve_profile_shifts(scene_, problems_, gears);
   }
 
   void errors() {

@@ -38,6 +38,17 @@ class PlanetarySystem final : public GearSystem {
 
   void check() const override { check_planetary_geometry(scene(), geometry()); }
 
+  [[nodiscard]] DrawingData drawing() const override {
+    const auto& sun_mesh = geometry().sun_mesh();
+    DrawingData data{{{"sun", sun_mesh.wheel()}, {"planet", sun_mesh.pinion()}}, {{"planet and sun", sun_mesh}}};
+    for (const auto& ring : geometry().rings) {
+      const auto name = fmt::format("ring '{}'", ring.name);
+      data.gears.push_back({name, ring.set.ring()});
+      data.pairs.push_back({"planet and " + name, ring.set.ring_mesh()});
+    }
+    return data;
+  }
+
   /// The sun mesh, then one mesh per ring.
   [[nodiscard]] std::vector<MeshModel> meshes() const override { return mesh_models(scene(), geometry()); }
 

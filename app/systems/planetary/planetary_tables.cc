@@ -34,10 +34,10 @@ Table planetary_stage_table() {
   return stage.done();
 }
 
-Table planetary_hub_gear_table(const char* path, const char* meaning, HubGearInput Scene::*member,
+Table planetary_hub_gear_table(const char* path, const char* meaning, HubGearInput Scene::*member, const char* mate,
                                const Condition& computed) {
   Declarations gear(path, meaning, member);
-  declare_teeth(gear, Flanks::external);
+  declare_teeth(gear, Flanks::external, mate);
   declare_mass(gear);
   declare_inertia(gear).required_if(given("[dynamics]"));
   declare_flanks(gear, Flanks::external);
@@ -221,8 +221,8 @@ std::vector<Table> planetary_tables() {
     return declare_mesh({path, meaning, member}).done();
   };
   return {planetary_stage_table(),
-          planetary_hub_gear_table("sun", "The sun gear.", &Scene::sun, sun_computed),
-          planetary_hub_gear_table("planet", "Each planet gear.", &Scene::planet, sun_computed || ring_computed),
+          planetary_hub_gear_table("sun", "The sun gear.", &Scene::sun, "planet", sun_computed),
+          planetary_hub_gear_table("planet", "Each planet gear.", &Scene::planet, "sun", sun_computed || ring_computed),
           carrier_table(),
           ring_table(),
           planetary_errors_table(),

@@ -9,7 +9,7 @@ namespace {
 void declare_ring_body(Declarations<RingInput>& ring) {
   ring.key("name", &RingInput::name, "Name of the ring and of the folder of its results.").required();
   declare_structure(ring);
-  declare_teeth(ring, Flanks::internal);
+  declare_teeth(ring, Flanks::internal, "planet");
   declare_mass(ring);
   declare_inertia(ring).required_if(given("[dynamics]"));
   declare_flanks(ring, Flanks::internal);

@@ -130,12 +130,23 @@ void check_power(const dynamics::PlanetaryStage& stage, const dynamics::DynamicR
                   carried));
 }
 
+/// The modes; what makes the elastic modes of a ring unusable is the choice of a key.
+StageModes modes_of(const dynamics::PlanetaryStage& stage, const StageTables& tables) {
+  try {
+    return stage_modes(stage, stiffness_errors(tables.sun_mesh, tables.ring_mesh));
+  } catch (const SolverError& error) {
+    if (!stage.ring_coupling || stage.ring_coupling->modes.empty()) throw;
+    throw InputError(
+        fmt::format("dynamics.rim_coupling = \"elastic\": {}; use \"static\" or \"automatic\"", error.what()));
+  }
+}
+
 }  // namespace
 
 StageResponse simulate_stage(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
                              const StageTables& tables) {
   StageResponse result;
-  result.modes = stage_modes(stage, stiffness_errors(tables.sun_mesh, tables.ring_mesh));
+  result.modes = modes_of(stage, tables);
   auto response = dynamics::simulate(stage, options);
   check_power(stage, response, options.steady_tolerance);
   tabulate(result, response, stage.planets());

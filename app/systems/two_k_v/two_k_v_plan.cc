@@ -31,9 +31,8 @@ std::vector<Quantity> two_k_v_quantities(const Scene& scene, const geometry::Gea
       quantity("mean_arc_mesh_force_N", stage.mean_arc_mesh_force(),
                "mean force of each arc mesh, along the tangent of the pitch point"),
       quantity("sun_mesh_contact_ratio", pair.contact_ratio(), "contact ratio of the sun mesh"),
-      // Of unshifted gears only rounding is left.
-      {"sun_mesh_normal_backlash_um", std::round(pair.normal_backlash() / units::um * 1e6) / 1e6, "µm",
-       "backlash of the sun mesh along the line of action, from the profile shifts"},
+      quantity("sun_mesh_normal_backlash_um", pair.normal_backlash(),
+               "backlash of the sun mesh along the line of action, from the profile shifts"),
       quantity("planet_tip_diameter_mm", 2 * pair.pinion().tip_radius(), "planet tip diameter"),
       quantity("sun_tip_diameter_mm", 2 * pair.wheel().tip_radius(), "sun tip diameter"),
   };

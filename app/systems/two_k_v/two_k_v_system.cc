@@ -28,6 +28,12 @@ class TwoKVSystem final : public GearSystem {
     check_two_k_v_geometry(scene(), sun_planet_pair(scene()));
   }
 
+  /// The arc teeth are no involutes.
+  [[nodiscard]] DrawingData drawing() const override {
+    const auto pair = sun_planet_pair(scene());
+    return {{{"sun", pair.wheel()}, {"planet", pair.pinion()}}, {{"planet and sun", pair}}};
+  }
+
   [[nodiscard]] std::vector<MeshModel> meshes() const override { return two_k_v_meshes(scene()); }
 
   [[nodiscard]] double mean_mesh_force() const override { return two_k_v_kinematics(scene()).mean_sun_mesh_force(); }
