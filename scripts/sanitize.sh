@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 command -v clang++ >/dev/null || { echo "sanitize.sh: needs clang (scripts/install_packages.sh --nightly)" >&2; exit 2; }
 mkdir -p build
 cmake --preset checked >build/checked.log 2>&1 || { cat build/checked.log >&2; exit 1; }
-cmake --build --preset checked --target annulus_cli test_core test_geometry test_fem test_dynamics test_app test_verification
+cmake --build --preset checked --target annulus_cli test_core test_geometry test_fem test_dynamics test_app test_verification test_skeleton test_random random_scenes
 [ $# -gt 0 ] || set -- --label-regex '^(unit|pipeline)$' \
   --exclude-regex '^(verification\.ring_types|package\.debian|app\.(report_page|reuse|tradeoff|optimisation)|manual\..*)$'
 ctest --preset checked --parallel "$(nproc)" "$@"

@@ -71,7 +71,7 @@ TableResolution table_resolution(double accuracy, double uptake, double overlap_
     return choice;
   }
   if (accuracy >= very_rough_accuracy) {
-    choice.phases_reason = "with 32 positions the error of peak factors is 2 %, under light loads 6 %";
+    choice.phases_reason = "an accuracy of 10 % or coarser leaves it at 32 positions";
     return choice;
   }
   const auto* peaks = std::begin(missed_peaks);

@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(shifts_follow_from_measurements) {
   }
   // Both circles are the ones printed; the sun's shift follows from its root circle with a dedendum of 1.25 modules.
   const auto text = with_shift_from("profile_shift = 0.7608", "profile_shift_from = \"root_diameter\"");
-  check_refused(text, "sun.profile_shift_from = \"root_diameter\": needs sun.root_diameter_mm");
+  check_refused(text, "sun.profile_shift_from = root_diameter: needs sun.root_diameter_mm");
 }
 
 BOOST_AUTO_TEST_CASE(shifts_that_lead_nowhere_are_refused) {

@@ -186,6 +186,7 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"*.file", "a file"},
       {"accuracy", "what two runs of a scene differ in"},
       {"stage.centre_distance_mm", "follows from the profile shifts"},
+      {"*.profile_shift_from", "the profile shift is drawn itself"},
       {"*.root_diameter_mm", "those of the basic rack"},
       {"sun.tip_diameter_mm", "that of the basic rack"},
       {"planet.tip_diameter_mm", "that of the basic rack"},
