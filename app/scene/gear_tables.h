@@ -25,7 +25,8 @@ void declare_shift_sources(Declarations<Section>& t, Flanks flanks, const char* 
                mate +
                ", with the backlash of normal_backlash_um. tip_diameter, root_diameter: these and an addendum of one "
                "module or a dedendum of 1.25 modules. span, pins: the measured dimension.")
-      .instead_of({"profile_shift"});
+      .instead_of({"profile_shift"})
+      .absent("profile_shift states it");
   const auto from = [](const char* source) { return is("profile_shift_from", {source}); };
   t.key("normal_backlash_um", &Section::normal_backlash,
         std::string("Backlash, normal to the flanks, that the profile shift leaves in mesh with the ") + mate + ".")
