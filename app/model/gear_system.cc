@@ -1,8 +1,11 @@
 #include "app/model/gear_system.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/classification.hpp>
+#include <boost/algorithm/string/split.hpp>
 #include <numeric>
 
 #include "app/model/plan_studies.h"
@@ -63,13 +66,25 @@ std::unique_ptr<GearSystem> make_system(const Scene& scene) { return system_kind
 
 Plan make_plan(const Scene& scene, int threads) { return make_system(scene)->plan(threads); }
 
+namespace {
+
+/// Every line of a message with the place of what it speaks of.
+std::string with_places(const Scene& scene, const std::string& message) {
+  std::vector<std::string> lines;
+  boost::algorithm::split(lines, message, boost::algorithm::is_any_of("\n"));
+  for (auto& line : lines) line = with_place(scene, without_place(scene, line));
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+}  // namespace
+
 void check_stage(const Scene& scene) {
   try {
     make_system(scene)->check();
   } catch (const GeometryError& error) {
-    throw GeometryError(with_place(scene, without_place(scene, error.what())));
+    throw GeometryError(with_places(scene, error.what()));
   } catch (const InputError& error) {
-    throw InputError(with_place(scene, without_place(scene, error.what())));
+    throw InputError(with_places(scene, error.what()));
   }
 }
 

@@ -108,18 +108,17 @@ void check_limits(const Scene& scene, const RunLimits& limits, int threads, bool
     if (std::isfinite(time) && time > longest_s) longest = &step, longest_s = time;
     if (memory > largest_MB) largest = &step, largest_MB = memory;
   }
-  constexpr const char* at_worst = " if quadratic elements have to follow linear ones";
-  const auto quadratic = [&](const CostStep& step) { return step.quadratic ? at_worst : ""; };
+  const auto at_worst = [](const CostStep& step) { return step.further ? " if " + step.follow : std::string(); };
   if (largest_MB > limits.memory_MB)
     throw SolverError(
         fmt::format("{}: refused: predicted to need {} of memory{}, the limit is {} (--max-memory). The largest part "
                     "is for the {}: {}",
-                    scene.file.string(), memory_text(largest_MB), quadratic(*largest), memory_text(limits.memory_MB),
+                    scene.file.string(), memory_text(largest_MB), at_worst(*largest), memory_text(limits.memory_MB),
                     largest->label, largest->cause));
   if (seconds > limits.seconds)
     throw SolverError(
         fmt::format("{}: refused: predicted to take {}{}, the limit is {} (--max-time). Of it, {} are for the {}: {}",
-                    scene.file.string(), duration_text(seconds), quadratic(*longest), duration_text(limits.seconds),
+                    scene.file.string(), duration_text(seconds), at_worst(*longest), duration_text(limits.seconds),
                     duration_text(longest_s), longest->label, longest->cause));
 }
 

@@ -84,7 +84,7 @@ const char* to_text(CostKind kind) {
 PlanCost PlanCost::at_worst() const {
   PlanCost result = *this;
   for (auto& step : result.steps)
-    if (step.quadratic) step.predicted = *step.quadratic;
+    if (step.further) step.predicted = *step.further;
   return result;
 }
 
@@ -104,7 +104,7 @@ PlanCost PlanCost::at_pace(double machine) const {
   PlanCost result = *this;
   for (auto& step : result.steps) {
     step.predicted.seconds *= machine;
-    if (step.quadratic) step.quadratic->seconds *= machine;
+    if (step.further) step.further->seconds *= machine;
   }
   result.pace *= machine;
   return result;
@@ -191,6 +191,20 @@ std::optional<CostRun> quadratic_size(const MeshModel& model) {
   return size;
 }
 
+std::optional<CostRun> finer_size(const MeshModel& model) {
+  constexpr double scatter = 3;
+  const auto& settings = model.settings;
+  const auto size = mesh_size(model);
+  const int last = fem::last_level(settings.fidelity);
+  if (settings.fidelity == fem::Fidelity::closed_form || settings.level || size.degree == 1 || size.level >= last)
+    return std::nullopt;
+  if (!(scatter * expected_error(size.work, size.degree, size.level) > settings.accuracy)) return std::nullopt;
+  CostRun finer = level_size(model, size.degree, size.level + 1);
+  finer.levels = size.levels + 1;
+  finer.before_s = size.before_s;
+  return finer;
+}
+
 int comparisons(int tables) {
   constexpr int of_each = 2, of_all = 4;
   return tables > 0 ? of_all + of_each * tables : 0;
@@ -218,8 +232,14 @@ PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<Plann
          .size = size,
          .cause = std::move(cause),
          .expected_error = expected_error_of(model, size)});
-    if (const auto follow = quadratic_size(model); follow && size.degree == 1)
-      cost.steps.back().quadratic = predicted_cost(*follow, threads);
+    auto& step = cost.steps.back();
+    if (const auto quadratic = quadratic_size(model); quadratic && size.degree == 1) {
+      step.further = predicted_cost(*quadratic, threads);
+      step.follow = "quadratic elements follow";
+    } else if (const auto finer = finer_size(model)) {
+      step.further = predicted_cost(*finer, threads);
+      step.follow = fmt::format("level {} follows", finer->level);
+    }
     if (coupled(model))
       add({.kind = CostKind::coupling,
            .label = fmt::format("coupling through '{}'", model.ring),

@@ -17,14 +17,15 @@ enum class CostKind { mesh, coupling, response, files, studies };
 /// One step of a run: what it will cost and, after it, what it did.
 struct CostStep {
   CostKind kind = CostKind::mesh;
-  std::string label{};                       ///< for people: "sun-planet mesh", "coupling through 'pinned'"
-  std::string ring{};                        ///< empty for the sun mesh and studies
-  CostRun size{};                            ///< as predicted; of no meaning for files and studies
-  std::string cause{};                       ///< "it follows from dynamics.mesh_cycles": what would change its cost
-  PredictedCost predicted{};                 ///< infinite where time integration needs endless steps
-  std::optional<PredictedCost> quadratic{};  ///< of a mesh, if linear elements turn out not to be accurate enough
-  double expected_error = not_known;         ///< relative, of a mesh's stiffness; NaN: not known
-  std::optional<CostRun> actual{};           ///< absent before the run and for what was reused
+  std::string label{};                     ///< for people: "sun-planet mesh", "coupling through 'pinned'"
+  std::string ring{};                      ///< empty for the sun mesh and studies
+  CostRun size{};                          ///< as predicted; of no meaning for files and studies
+  std::string cause{};                     ///< "it follows from dynamics.mesh_cycles": what would change its cost
+  PredictedCost predicted{};               ///< infinite where time integration needs endless steps
+  std::optional<PredictedCost> further{};  ///< of a mesh, if its elements turn out not to be accurate enough
+  std::string follow{};                    ///< what is solved then: "quadratic elements follow"
+  double expected_error = not_known;       ///< relative, of a mesh's stiffness; NaN: not known
+  std::optional<CostRun> actual{};         ///< absent before the run and for what was reused
 };
 
 struct PlanCost {
@@ -33,7 +34,7 @@ struct PlanCost {
   double pace = 1;  ///< by which the predicted times are scaled (machine_pace)
 
   [[nodiscard]] bool empty() const { return steps.empty(); }
-  /// With quadratic elements wherever they may follow linear ones: what limits are compared with.
+  /// With finer or quadratic elements wherever they may have to follow: what limits are compared with.
   [[nodiscard]] PlanCost at_worst() const;
   /// s: meshes and couplings one after the other, responses side by side.
   [[nodiscard]] double seconds() const;
@@ -54,6 +55,9 @@ struct PlanCost {
 [[nodiscard]] CostRun level_size(const MeshModel& model, int degree, int level);
 /// The size with the quadratic elements that follow where linear ones, planned first, are not accurate enough.
 [[nodiscard]] std::optional<CostRun> quadratic_size(const MeshModel& model);
+/// The size with one level more, where the error of the planned one is expected near the wanted accuracy: that of two
+/// meshes differs by a factor of 3.
+[[nodiscard]] std::optional<CostRun> finer_size(const MeshModel& model);
 
 /// A response of the lumped model, of the size `size`.
 struct PlannedResponse {

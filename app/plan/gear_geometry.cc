@@ -13,8 +13,11 @@ OperatingPoint operate(const StageInput& stage, const geometry::PlanetarySet& se
   OperatingPoint point;
   point.sun_speed = stage.sun_speed ? *stage.sun_speed : *stage.carrier_speed * ratio;
   point.carrier_speed = point.sun_speed / ratio;
-  point.sun_torque = stage.power / point.sun_speed;
+  point.sun_torque = stage.power        ? *stage.power / point.sun_speed
+                     : stage.sun_torque ? *stage.sun_torque
+                                        : *stage.carrier_torque / ratio;
   point.carrier_torque = point.sun_torque * ratio;
+  point.power = point.sun_torque * point.sun_speed;
   point.mesh_frequency = ring_teeth * point.carrier_speed / (2 * std::numbers::pi);
   point.mean_mesh_force = point.sun_torque / (stage.planets * set.sun().base_radius());
   return point;

@@ -9,8 +9,9 @@
 
 namespace annulus::app {
 
-/// Speeds, torques and forces that follow from power and speed; SI.
+/// Speeds, torques and forces that follow from power or torque, and speed; SI.
 struct OperatingPoint {
+  double power = 0;                         ///< W
   double sun_speed = 0, carrier_speed = 0;  ///< rad/s
   double sun_torque = 0;                    ///< N m
   double carrier_torque = 0;                ///< N m, magnitude

@@ -67,15 +67,15 @@ std::string cost_lines(const Plan& plan) {
           "   level {}, about {:.0f} thousand unknowns, expected error {}", step.size.level, step.size.unknowns / 1e3,
           std::isfinite(step.expected_error) ? fmt::format("{:.2g} %", 100 * step.expected_error) : "not known");
     text += "\n";
-    if (step.quadratic)
-      text +=
-          "    " + pad("if quadratic elements follow", 32) +
-          fmt::format("{:>10}{:>11}\n", duration_text(step.quadratic->seconds), memory_text(step.quadratic->peak_MB));
+    if (step.further)
+      text += "    " + pad("if " + step.follow, 32) +
+              fmt::format("{:>10}{:>11}\n", duration_text(step.further->seconds), memory_text(step.further->peak_MB));
   }
   text += "  " + pad("in all", 34) +
           fmt::format("{:>10}{:>11}\n", duration_text(cost.seconds()), memory_text(cost.peak_MB()));
-  const bool linear = std::any_of(cost.steps.begin(), cost.steps.end(), [](const auto& s) { return s.quadratic; });
-  if (const auto worst = cost.at_worst(); linear)
+  const bool open =
+      std::any_of(cost.steps.begin(), cost.steps.end(), [](const auto& s) { return s.further.has_value(); });
+  if (const auto worst = cost.at_worst(); open)
     text += "  " + pad("at worst", 34) +
             fmt::format("{:>10}{:>11}   --max-time and --max-memory are compared with this\n",
                         duration_text(worst.seconds()), memory_text(worst.peak_MB()));
@@ -186,9 +186,9 @@ std::string to_json(const Plan& plan) {
         if (step.kind != CostKind::mesh || step.label != mesh.label()) continue;
         item["predicted_s"] = json_number(step.predicted.seconds);
         item["predicted_peak_MB"] = json_number(step.predicted.peak_MB);
-        if (!step.quadratic) continue;
-        item["predicted_worst_s"] = json_number(step.quadratic->seconds);
-        item["predicted_worst_peak_MB"] = json_number(step.quadratic->peak_MB);
+        if (!step.further) continue;
+        item["predicted_worst_s"] = json_number(step.further->seconds);
+        item["predicted_worst_peak_MB"] = json_number(step.further->peak_MB);
       }
     }
     json["meshes"].push_back(std::move(item));

@@ -1,6 +1,7 @@
 #include "app/scene/key_rules.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
@@ -206,6 +207,7 @@ class RuleChecker : KeyChecks {
       }
     }
     check_partners(p, entry);
+    check_group(p, entry);
     check_alternatives(p, entry);
   }
 
@@ -242,6 +244,21 @@ class RuleChecker : KeyChecks {
       if (has == keys_.given(other, entry)) continue;
       problem(has ? p.key() : other, entry, fmt::format("needs {} as well", has ? other : p.key()));
     }
+  }
+
+  /// Of a group that one of its keys declares.
+  void check_group(const Parameter& p, std::size_t entry) {
+    if (p.one_of.empty()) return;
+    auto group = p.one_of;
+    group.insert(group.begin(), p.name);
+    std::vector<std::string> found;
+    for (const auto& name : group)
+      if (keys_.given(p.table + "." + name, entry)) found.push_back(name);
+    if (found.empty())
+      problem(p.key(), entry, fmt::format("one of {} is required", fmt::join(group, ", ")));
+    else if (found.size() > 1)
+      problem(p.table + "." + found.back(), entry,
+              fmt::format("is given beside {}; give one of {}", found.front(), fmt::join(group, ", ")));
   }
 
   void check_alternatives(const Parameter& p, std::size_t entry) {

@@ -78,6 +78,8 @@ class Declared {
   Declared& together_with(const char* key) { return p_.together_with.emplace_back(key), *this; }
   /// Exactly one is given where the conditions of this key hold: this key, or all of `keys`.
   Declared& instead_of(std::vector<std::string> keys) { return p_.instead_of = std::move(keys), *this; }
+  /// Exactly one of this key and `keys` is given.
+  Declared& one_of(std::vector<std::string> keys) { return p_.one_of = std::move(keys), *this; }
   /// An earlier name, refused with the present one.
   Declared& formerly(std::string name) { return p_.old_names.push_back(std::move(name)), *this; }
 

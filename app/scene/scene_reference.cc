@@ -103,6 +103,7 @@ std::vector<std::string> rule_texts(const Parameter& p) {
     if (!has_condition_of(rule, p.only_if, p.table)) list.push_back(rule_text("required by ", rule, p.table));
   for (const auto& rule : p.refused_if) list.push_back(rule_text("refused beside ", rule, p.table));
   for (const auto& name : p.together_with) list.push_back("together with " + name);
+  if (!p.one_of.empty()) list.push_back(fmt::format("exactly one of this, {}", listed(p.one_of)));
   if (!p.instead_of.empty()) list.push_back("either this or " + listed(p.instead_of));
   return list;
 }

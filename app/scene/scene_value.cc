@@ -88,12 +88,12 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   std::string best;
   constexpr std::size_t longest_word = 100;  // no slip of the pen makes a key so long
   if (word.size() > longest_word) return best;
-  // Half the letters wrong is no longer a slip of the pen; a forgotten unit suffix still is.
+  // Half the letters wrong is no longer a slip of the pen; a forgotten unit suffix or first word still is.
   int best_distance = std::max<int>(2, static_cast<int>(word.size()) / 2) + 1;
   for (const auto& candidate : candidates) {
     int distance = edit_distance(word, candidate);
-    const bool prefix = word.size() >= 3 && candidate.compare(0, word.size(), word) == 0;
-    if (prefix) distance = std::min(distance, 2);
+    const bool part = word.size() >= 3 && candidate.find(word) != std::string::npos;
+    if (part) distance = std::min(distance, 2);
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

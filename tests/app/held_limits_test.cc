@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(a_plan_states_what_quadratic_elements_would_cost) {
   const auto limit = std::to_string(static_cast<int>((likely + worst) / 2)) + "MB";
   const auto refused = test::run_program(folder.path(), "run scene.toml -o out --threads 2 --max-memory " + limit);
   BOOST_TEST(refused.status == 3);
-  BOOST_TEST(refused.err.find("if quadratic elements have to follow linear ones") != std::string::npos, refused.err);
+  BOOST_TEST(refused.err.find("if quadratic elements follow") != std::string::npos, refused.err);
   BOOST_TEST(refused.err.find(" (--max-memory)") != std::string::npos);
   BOOST_TEST(!std::filesystem::exists(folder.path() / "out"));
 }

@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(values_are_set_before_the_checks) {
                                   {"errors.planet_eccentricity_um[2]", 40},
                                   {"errors.planet_pin_position_error_phase_deg[5]", 90},  // list not there
                                   {"sun.teeth", 48}});
-  BOOST_TEST(changed.stage.power == 1e6);
+  BOOST_TEST(*changed.stage.power == 1e6);
   BOOST_TEST(*changed.stage.sun_speed == 900 * units::rpm, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(changed.supports.ring == 2e9);
   BOOST_TEST(*changed.sun_planet.mean == 1e9);
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(values_are_set_before_the_checks) {
   BOOST_TEST(changed.errors.planet_pin_position_phase[4] == 90 * units::deg, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(changed.errors.planet_pin_position_phase[0] == 0.0);
   // The scene itself is as it was, and so is one changed by nothing.
-  BOOST_TEST(scene.stage.power == 2958.8e3);
+  BOOST_TEST(*scene.stage.power == 2958.8e3);
   const auto same = app::with_overrides(scene, {});
   BOOST_TEST_REQUIRE(same.inputs.size() == scene.inputs.size());
   for (std::size_t i = 0; i < same.inputs.size(); ++i)

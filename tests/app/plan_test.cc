@@ -426,7 +426,7 @@ BOOST_AUTO_TEST_CASE(identity_follows_the_inputs_that_matter) {
   other.rings[0].outside_diameter = 0.7;
   BOOST_TEST(id(other) == id(scene));  // another ring
   other = scene;
-  other.stage.power *= 1.0 + 1e-15;
+  *other.stage.power *= 1.0 + 1e-15;
   BOOST_TEST(id(other) != id(scene));  // the last bit of a load counts
   BOOST_TEST(app::sun_mesh_model(scene, geometry).id() != id(scene));
 }

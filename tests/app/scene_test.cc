@@ -7,6 +7,10 @@
 #include <cmath>
 #include <iterator>
 
+#include "app/model/gear_system.h"
+#include "app/plan/gear_geometry.h"
+#include "app/scene/overrides.h"
+#include "app/scene/scene_files.h"
 #include "app/scene/scene_schema.h"
 #include "core/files.h"
 #include "core/units.h"
@@ -72,7 +76,7 @@ BOOST_AUTO_TEST_CASE(values_are_si) {
   // One rounding of value x factor each.
   BOOST_TEST(scene.stage.module == 3.8e-3, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(scene.stage.pressure_angle == 22.5 * units::deg, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(scene.stage.power == 2958.8e3, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(*scene.stage.power == 2958.8e3, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(*scene.stage.sun_speed == 1128 * units::rpm, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(scene.material.youngs_modulus == 206e9, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(scene.errors.planet_eccentricity.at(1) == 36e-6, boost::test_tools::tolerance(1e-15));
@@ -349,6 +353,47 @@ BOOST_AUTO_TEST_CASE(assumed_inputs) {
   BOOST_TEST(refused("supports.sn_N_per_m = \"x\"")[0].message.find("supports.sun_N_per_m") != std::string::npos);
   BOOST_TEST(refused("supports.sun_N_per_m = 3").size() == 1U);      // the reason is a text
   BOOST_TEST(refused("sun.bore_diameter_mm = \"x\"").size() == 1U);  // not set in this scene
+}
+
+BOOST_AUTO_TEST_CASE(a_load_is_stated_once) {
+  const auto with_load = [](const std::string& load) {
+    return test::replaced(test::quick_scene(), "power_kW = 2958.8\n", load);
+  };
+  const double torque =
+      app::make_geometry(app::parse_scene(test::quick_scene(), "scene.toml")).operating_point.sun_torque;
+  const auto by_torque = app::parse_scene(with_load(fmt::format("sun_torque_Nm = {:.17g}\n", torque)), "scene.toml");
+  const auto by_carrier = app::parse_scene(
+      with_load(fmt::format("carrier_torque_Nm = {:.17g}\n", torque * (1 + 162.0 / 48))), "scene.toml");
+  for (const auto& scene : {by_torque, by_carrier})
+    BOOST_TEST(app::make_geometry(scene).operating_point.power == 2958.8e3, boost::test_tools::tolerance(1e-12));
+  // A torque stays where the speed changes; a power does not.
+  const auto faster = app::with_overrides(by_torque, {{"stage.sun_speed_rpm", 2256}});
+  BOOST_TEST(app::make_geometry(faster).operating_point.sun_torque == torque, boost::test_tools::tolerance(1e-12));
+  const auto none = problems_of(with_load(""));
+  BOOST_TEST_REQUIRE(none.size() == 1U);
+  BOOST_TEST(none[0].message == "stage.power_kW: one of power_kW, sun_torque_Nm, carrier_torque_Nm is required");
+  const auto two = problems_of(with_load("power_kW = 2958.8\nsun_torque_Nm = 3\n"));
+  BOOST_TEST_REQUIRE(two.size() == 1U);
+  BOOST_TEST(two[0].message.find("is given beside power_kW") != std::string::npos, two[0].message);
+  // A word without its body finds its key; tables of other kinds are no advice.
+  const auto word = problems_of(with_load("power_kW = 2958.8\ntorque_Nm = 3\n"));
+  BOOST_TEST_REQUIRE(word.size() == 1U);
+  BOOST_TEST(word[0].message.find("did you mean stage.sun_torque_Nm?") != std::string::npos, word[0].message);
+}
+
+BOOST_AUTO_TEST_CASE(every_gear_that_cannot_exist_is_reported) {
+  const auto text =
+      test::replaced(test::replaced(test::quick_scene(), "profile_shift = 0.7608", "profile_shift = 2.95"),
+                     "profile_shift = 0.7361", "profile_shift = 2.9");
+  const auto scene = app::parse_scene(text, "scene.toml");
+  BOOST_CHECK_EXCEPTION(app::check_stage(scene), GeometryError, [](const auto& error) {
+    const std::string what = error.what();
+    const auto lines = std::count(what.begin(), what.end(), '\n') + 1;
+    BOOST_TEST(lines == 2, what);
+    BOOST_TEST(what.find(": sun: ") != std::string::npos, what);
+    BOOST_TEST(what.find(": planet: ") != std::string::npos, what);
+    return lines == 2;
+  });
 }
 
 BOOST_AUTO_TEST_CASE(broken_toml_has_a_place) {

@@ -26,9 +26,9 @@ struct StageInput {
   int planets = 0;
   std::vector<double> planet_angles;  ///< rad; empty: equally spaced
   double module = 0, pressure_angle = 0, helix_angle = 0, face_width = 0, centre_distance = 0;
-  double power = 0;
-  std::optional<double> sun_speed, carrier_speed;  ///< rad/s; exactly one is given
-  double pinion_torque = 0, pinion_speed = 0;      ///< helical_pair
+  std::optional<double> power, sun_torque, carrier_torque;  ///< W, N m; exactly one is given
+  std::optional<double> sun_speed, carrier_speed;           ///< rad/s; exactly one is given
+  double pinion_torque = 0, pinion_speed = 0;               ///< helical_pair
 };
 
 struct MaterialInput {

@@ -166,7 +166,7 @@ class Reader {
   [[nodiscard]] std::string suggestion(const std::string& path, const std::string& name,
                                        const std::vector<std::string>& names) const {
     std::string elsewhere;
-    for (const auto& table : all_)
+    for (const auto& table : *own_)
       if (table.find(name))
         elsewhere += (elsewhere.empty() ? "" : ", ") + (table.path.empty() ? "the top level" : table.header());
     if (!elsewhere.empty()) return "; it belongs in " + elsewhere;

@@ -78,7 +78,9 @@ void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry) 
   for (std::size_t i = 0; ring && i < scene.rings.size(); ++i)
     check_ring_rim(scene, scene.rings[i], geometry.rings.at(i));
 
-  constexpr const char* load = "stage.power_kW";
+  const char* load = scene.stage.power        ? "stage.power_kW"
+                     : scene.stage.sun_torque ? "stage.sun_torque_Nm"
+                                              : "stage.carrier_torque_Nm";
   const double mesh_force = geometry.operating_point.mean_mesh_force;
   if (scene.dynamics) {
     check_deviations(scene);
@@ -89,6 +91,31 @@ void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry) 
   for (std::size_t i = 0; scene.tolerances && i < scene.rings.size(); ++i) (void)stage_tolerances(scene, geometry, i);
   if (sun || ring) check_load(scene, load, mesh_force);
   for (std::size_t i = 0; i < scene.rings.size(); ++i) check_ring_supports(scene, geometry, i);
+}
+
+std::vector<std::string> planetary_faults(const Scene& scene) {
+  std::vector<std::string> faults;
+  const auto attempt = [&](const auto& check) {
+    try {
+      check();
+    } catch (const Error& error) {
+      if (std::find(faults.begin(), faults.end(), error.what()) == faults.end()) faults.emplace_back(error.what());
+    }
+  };
+  using geometry::GearKind;
+  const auto gear = [&](const std::string& name, const GearInput& input, GearKind kind) {
+    attempt([&] { (void)geometry_of(name, [&] { return make_gear(scene, input, kind); }); });
+  };
+  gear("sun", scene.sun, GearKind::external);
+  gear("planet", scene.planet, GearKind::external);
+  for (const auto& ring : scene.rings) gear("ring '" + ring.name + "'", ring, GearKind::internal);
+  if (!faults.empty()) return faults;  // pairs of gears that cannot exist say nothing new
+  for (const auto& ring : scene.rings) {
+    Scene alone = scene;
+    alone.rings = {ring};
+    attempt([&] { check_planetary_geometry(alone, make_geometry(alone)); });
+  }
+  return faults;
 }
 
 }  // namespace annulus::app

@@ -127,6 +127,9 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
 std::vector<DerivedInput> derived_inputs(const GearGeometry& geometry) {
   const auto& point = geometry.operating_point;
   std::vector<DerivedInput> list = {
+      {"stage.power_kW", "", point.power / units::kW, "torque × speed"},
+      {"stage.sun_torque_Nm", "", point.sun_torque, "power / sun speed, or carrier torque / (1 + z_r / z_s)"},
+      {"stage.carrier_torque_Nm", "", point.carrier_torque, "sun torque × (1 + z_r / z_s)"},
       {"stage.carrier_speed_rpm", "", point.carrier_speed / units::rpm, "sun speed / (1 + z_r / z_s)"},
       {"stage.sun_speed_rpm", "", point.sun_speed / units::rpm, "carrier speed × (1 + z_r / z_s)"}};
   add_diameters(list, "sun", geometry.rings.front().set.sun());

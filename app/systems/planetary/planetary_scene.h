@@ -20,5 +20,8 @@ void check_planetary_scene(Scene& scene, std::vector<Problem>& problems);
 /// beyond them. Loads, supports and errors too large for small displacements are refused. Throws what model_limits.h
 /// throws.
 void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry);
+/// What is wrong with every gear by itself or, where all of them exist, with every ring and its planets. At most one
+/// fault of each.
+[[nodiscard]] std::vector<std::string> planetary_faults(const Scene& scene);
 
 }  // namespace annulus::app

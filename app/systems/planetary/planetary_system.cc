@@ -1,6 +1,7 @@
 #include "app/systems/planetary/planetary_system.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iterator>
 #include <utility>
@@ -36,7 +37,15 @@ class PlanetarySystem final : public GearSystem {
     return names;
   }
 
-  void check() const override { check_planetary_geometry(scene(), geometry()); }
+  void check() const override {
+    try {
+      check_planetary_geometry(scene(), geometry());
+    } catch (const Error&) {
+      const auto faults = planetary_faults(scene());
+      if (faults.size() < 2) throw;
+      throw GeometryError(fmt::format("{}", fmt::join(faults, "\n")));
+    }
+  }
 
   [[nodiscard]] DrawingData drawing() const override {
     const auto& sun_mesh = geometry().sun_mesh();

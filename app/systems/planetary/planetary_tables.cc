@@ -23,7 +23,17 @@ Table planetary_stage_table() {
   declare_centre_distance(stage).required();
   stage.key("power_kW", &StageInput::power, "Transmitted power; the sun drives, the carrier is driven.")
       .above(0, 1e6)
-      .required();
+      .one_of({"sun_torque_Nm", "carrier_torque_Nm"})
+      .absent("follows from the torque and the speed");
+  constexpr double largest_torque = 1e9;
+  stage
+      .key("sun_torque_Nm", &StageInput::sun_torque,
+           "Torque of the sun, instead of the power. It stays the same where a sweep changes the speed.")
+      .above(0, largest_torque)
+      .absent("follows from the power and the speed");
+  stage.key("carrier_torque_Nm", &StageInput::carrier_torque, "Torque of the carrier, instead of the power.")
+      .above(0, largest_torque)
+      .absent("follows from the power and the speed");
   stage.key("sun_speed_rpm", &StageInput::sun_speed, "Speed of the sun.")
       .from(slowest_rpm, 1e6)
       .absent("follows from carrier_speed_rpm");

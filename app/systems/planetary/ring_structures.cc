@@ -39,8 +39,10 @@ void declare_sleeve(Declarations<RingInput>& ring) {
           "free_length_mm", &RingInput::free_length,
           "Length of the toothless sleeve between the fixed face and the teeth; 0: the teeth start at the fixed face.")
       .from(0, 1e4);
-  keys.needed("sleeve_thickness_mm", &RingInput::sleeve_thickness, "Thickness of the sleeve, at the outside diameter.")
-      .above(0, 1e4);
+  keys.optional("sleeve_thickness_mm", &RingInput::sleeve_thickness,
+                "Thickness of the sleeve, at the outside diameter.")
+      .above(0, 1e4)
+      .absent("without a sleeve (free_length_mm = 0), the whole rim is held; else it is required");
   keys.optional("hoop_width_mm", &RingInput::hoop_width, "Axial width of a stiffening hoop at the free end.")
       .above(0, 1e4)
       .absent("no hoop");
@@ -99,12 +101,25 @@ class RingChecker : KeyChecks {
   void check(RingInput& ring) {
     if (!usable("ring.structure", ring.name)) return;
     if (ring.structure == Structure::traditional) check_flange(ring);
-    if (ring.structure == Structure::thin_walled) not_wider_than_face("ring.hoop_width_mm", ring.name, ring.hoop_width);
+    if (ring.structure == Structure::thin_walled) check_sleeve(ring);
     if (ring.has_pins()) check_pins(ring, scene_, problems_);
     if (ring.structure == Structure::clamped) check_clamp(ring);
   }
 
  private:
+  void check_sleeve(RingInput& ring) {
+    not_wider_than_face("ring.hoop_width_mm", ring.name, ring.hoop_width);
+    const std::string key = "ring.sleeve_thickness_mm";
+    if (given(key, ring.name) || !usable("ring.free_length_mm", ring.name)) return;
+    if (ring.free_length.value_or(0) > 0)
+      return problem(key, ring.name, "is required by structure = \"thin_walled\" with free_length_mm > 0");
+    const auto outside = known_outside(scene_, ring);
+    if (!outside) return;  // refused with its reason where the ring is made
+    const double root = make_gear(scene_, ring, geometry::GearKind::internal).root_radius();
+    ring.sleeve_thickness = *outside - root - least_rim(scene_);
+    set(key, *ring.sleeve_thickness / units::mm, Origin::derived, "no sleeve: the whole rim is held", ring.name);
+  }
+
   void check_flange(const RingInput& ring) {
     not_wider_than_face("ring.flange_width_mm", ring.name, ring.flange_width);
     if (const auto radius = known_outside(scene_, ring);

@@ -126,7 +126,7 @@ void check_power(const dynamics::PlanetaryStage& stage, const dynamics::DynamicR
   if (std::abs(carried - 1) <= 10 * steady_tolerance) return;
   throw SolverError(
       fmt::format("the teeth carry only {:.3g} of the sun's torque. The torque is too small to close the gaps from the "
-                  "errors in the computed motion; raise stage.power_kW, or reduce [errors]",
+                  "errors in the computed motion; raise the power or torque of [stage], or reduce [errors]",
                   carried));
 }
 

@@ -56,7 +56,7 @@ Page stage_report(const RunResult& result) {
   return run_page(
       result,
       {.words = fmt::format("{} planets, {} kW at {} r/min of the sun", scene.stage.planets,
-                            to_text(scene.stage.power / 1e3), to_text(point.sun_speed / units::rpm, 6)),
+                            to_text(point.power / 1e3, 6), to_text(point.sun_speed / units::rpm, 6)),
        .answer = stage_verdict(result),
        .results = {key_results(result, {{"ring_planet_", "Ring meshes"}, {"sun_planet_", "Sun meshes"}, {"", "Stage"}},
                                fmt::format("At the nominal mesh force of {}. ",
