@@ -237,7 +237,8 @@ BOOST_AUTO_TEST_CASE(the_program_learns_its_pace_and_keeps_budgets) {
   const auto first = program_with_cache(folder.path(), "run s.toml -o out");
   BOOST_TEST(first.status == 0, first.err);
   BOOST_TEST(first.out.find("cost    predicted ") != std::string::npos);
-  BOOST_TEST(!std::filesystem::exists(pace));  // formulas are over before their time says anything
+  // Formulas are over before their time says anything, but for sanitizers.
+  BOOST_TEST((ANNULUS_SLOWDOWN > 1 || !std::filesystem::exists(pace)));
   const auto before = program_with_cache(folder.path(), "plan c.toml --json --budget 1h");
   BOOST_TEST(program_with_cache(folder.path(), "run c.toml -q -o solved").status == 0);
   BOOST_REQUIRE(std::filesystem::exists(pace));
