@@ -29,7 +29,7 @@ DrawingRow row(const Items& items, std::string key, std::string title, std::stri
                const Value& value) {
   DrawingRow result{std::move(key), std::move(title), std::move(unit), {}, {}};
   for (const auto& item : items) {
-    result.values.push_back(value(item));
+    result.values.push_back(value(item) + 0.0);  // no negative zeros
     result.cells.push_back(cell(result.values.back(), decimals));
   }
   return result;
