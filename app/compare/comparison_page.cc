@@ -9,17 +9,11 @@
 #include "app/results/content_id.h"
 #include "app/sections/report_parts.h"
 #include "core/csv.h"
+#include "core/text_columns.h"
 
 namespace annulus::app {
 
 namespace {
-
-/// Padded by characters, not by bytes.
-std::string column(const std::string& text, std::size_t width) {
-  const auto characters =
-      static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-  return text + std::string(characters < width ? width - characters : 1, ' ');
-}
 
 /// A table with one column per variant.
 PageTable variant_table(const Comparison& comparison) {
@@ -110,9 +104,9 @@ std::string comparison_text(const std::vector<ComparedRun>& runs) {
   constexpr std::size_t name_width = 64, least_width = 22;
   std::string text;
   const auto add_line = [&](const std::string& name, const std::vector<std::string>& cells) {
-    text += column(name, name_width);
+    text += left_aligned(name, name_width);
     for (std::size_t i = 0; i < cells.size(); ++i)
-      text += column(cells[i], std::max(least_width, variants[i].size() + 2));
+      text += left_aligned(cells[i], std::max(least_width, variants[i].size() + 2));
     text += "\n";
   };
   add_line("", variants);
@@ -125,14 +119,14 @@ std::string comparison_text(const std::vector<ComparedRun>& runs) {
     for (const auto& difference : quantity.differences) text += "  " + quantity.shown.name + ": " + difference + "\n";
   if (!comparison.inputs.empty()) text += "\nInputs that differ\n";
   for (const auto& input : comparison.inputs)
-    text += fmt::format("  {} {}\n", column(input.key, 40), fmt::join(input.values, " | "));
+    text += fmt::format("  {} {}\n", left_aligned(input.key, 40), fmt::join(input.values, " | "));
   if (!comparison.inputs_remark.empty()) text += "\n" + comparison.inputs_remark + "\n";
   text += "\n";
   for (const auto& run : runs) {
     double total = 0;
     for (const auto& [stage, seconds] : run.timings)
       if (stage == "total") total = seconds;
-    text += column("cost    " + run.name, 40) +
+    text += left_aligned("cost    " + run.name, 40) +
             fmt::format("{:.2f} s, {:.0f} MB{}\n", total, run.peak_memory_MB,
                         run.read_back > 0 ? fmt::format(", {} results read back", run.read_back) : "");
   }
@@ -143,8 +137,8 @@ Json comparison_json(const std::vector<ComparedRun>& runs) {
   Json json = {{"kind", runs.front().kind}, {"results", Json::array()}, {"inputs_that_differ", Json::array()}};
   const Comparison comparison(runs);
   for (const auto& quantity : comparison.quantities) {
-    Json item = {{"key", quantity.spec.key}, {"unit", quantity.spec.unit}};
-    for (const auto& m : quantity.shown.rings) {
+    Json item = {{"key", quantity.spec.key}};  // which states the unit, as everywhere in files
+    for (const auto& m : quantity.si.rings) {
       Json value = {{"variant", m.ring}, {"value", json_number(m.value)}, {"error", json_number(m.error)}};
       if (m.spread) value["spread"] = to_json(*m.spread);
       item["values"].push_back(std::move(value));

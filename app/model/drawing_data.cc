@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "core/not_known.h"
+#include "core/text_columns.h"
 #include "core/units.h"
 #include "geometry/measurements.h"
 
@@ -53,8 +54,6 @@ PinMeasure pin_measure(const Gear& gear) {
   }
 }
 
-double span_teeth(const Gear& gear) { return geometry::usual_span_teeth(gear); }
-
 }  // namespace
 
 std::vector<DrawingRow> gear_rows(const DrawingData& data) {
@@ -82,7 +81,8 @@ std::vector<DrawingRow> gear_rows(const DrawingData& data) {
      [](const Gear& g) { return geometry::normal_tooth_thickness(g); });
   mm("tip_thickness_mm", "normal tooth thickness on d_a",
      [](const Gear& g) { return g.tooth_thickness(g.tip_radius()) * std::cos(g.helix_angle_at(g.tip_radius())); });
-  add("span_teeth", "teeth (ring: spaces) of the span", "", 0, span_teeth);
+  add("span_teeth", "teeth (ring: spaces) of the span", "", 0,
+      [](const Gear& g) { return geometry::usual_span_teeth(g); });
   mm("span_mm", "span W_k", [](const Gear& g) { return g.base_tangent_length(geometry::usual_span_teeth(g)); });
   mm("measuring_pin_mm", "measuring pin or ball", [](const Gear& g) { return pin_measure(g).pin; });
   mm("over_pins_mm", "dimension over pins (ring: between)", [](const Gear& g) { return pin_measure(g).over; });
@@ -125,29 +125,22 @@ namespace {
 
 /// Columns as wide as their widest cell.
 std::string table_text(const std::vector<std::string>& names, const std::vector<DrawingRow>& rows) {
-  const auto width = [](const std::string& text) {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; }));
-  };
-  const auto padded = [&](const std::string& text, std::size_t to, bool right) {
-    const std::string blanks(to > width(text) ? to - width(text) : 0, ' ');
-    return right ? blanks + text : text + blanks;
-  };
   std::size_t first = 0;
-  for (const auto& r : rows) first = std::max(first, width(r.title) + (r.unit.empty() ? 0 : width(r.unit) + 2));
+  const auto title_of = [](const DrawingRow& r) { return r.unit.empty() ? r.title : r.title + ", " + r.unit; };
+  for (const auto& r : rows) first = std::max(first, characters(title_of(r)));
   std::vector<std::size_t> columns;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    columns.push_back(width(names[i]));
-    for (const auto& r : rows) columns.back() = std::max(columns.back(), width(r.cells[i]));
+    columns.push_back(characters(names[i]));
+    for (const auto& r : rows) columns.back() = std::max(columns.back(), characters(r.cells[i]));
   }
-  std::string text = padded("", first, false);
-  for (std::size_t i = 0; i < names.size(); ++i) text += "  " + padded(names[i], columns[i], true);
-  text += "\n";
-  for (const auto& r : rows) {
-    text += padded(r.unit.empty() ? r.title : r.title + ", " + r.unit, first, false);
-    for (std::size_t i = 0; i < names.size(); ++i) text += "  " + padded(r.cells[i], columns[i], true);
+  std::string text;
+  const auto line = [&](const std::string& title, const std::vector<std::string>& cells) {
+    text += left_aligned(title, first + 1);
+    for (std::size_t i = 0; i < cells.size(); ++i) text += " " + right_aligned(cells[i], columns[i] + 1);
     text += "\n";
-  }
+  };
+  line("", names);
+  for (const auto& r : rows) line(title_of(r), r.cells);
   return text;
 }
 

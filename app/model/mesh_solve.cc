@@ -60,9 +60,9 @@ FileSet body_files(const MeshModel& model, const fem::LoadedMeshResult& solved, 
 fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& options) {
   const int threads = options.threads;
   // Formulas take a fraction of a second: the study that asks for them has a progress of its own.
-  const bool told = !(options.for_study && model.settings.fidelity == fem::Fidelity::closed_form);
   std::optional<Progress> progress;
-  if (told) progress.emplace(model.label(), machine_pace() * predicted_cost(mesh_size(model), threads).seconds);
+  if (!options.for_study || model.has_elements())
+    progress.emplace(model.label(), machine_pace() * predicted_cost(mesh_size(model), threads).seconds);
   const auto update = [&](double fraction) {
     if (progress) progress->update(fraction);
   };

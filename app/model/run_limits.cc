@@ -58,9 +58,7 @@ double memory_of(const Scene& scene, const CostStep& step) {
 }
 
 /// Whether the accuracy decides how a mesh is solved.
-bool refines(const MeshModel& model) {
-  return model.computed() && model.settings.fidelity != fem::Fidelity::closed_form && !model.settings.level;
-}
+bool refines(const MeshModel& model) { return model.has_elements() && !model.settings.level; }
 
 /// Whether the scene's meshes are expected to reach its accuracy.
 bool within_reach(const Scene& scene) {

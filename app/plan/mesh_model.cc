@@ -82,12 +82,11 @@ std::vector<Decision> decisions(const MeshModel& model) {
   if (!model.computed()) return list;
   const auto& settings = model.settings;
   const auto& problem = *model.problem;
-  const bool elements = settings.fidelity != fem::Fidelity::closed_form;
   const bool solid = fem::is_solid(settings.fidelity);
   list.push_back({"dimension", solid ? "3D" : "2D, plane strain",
                   solid ? "the face width is meshed" : "one section stands for the whole face width"});
   if (solid) list.push_back(symmetry_decision(problem, settings));
-  if (elements) {
+  if (model.has_elements()) {
     constexpr const char* names[] = {"linear", "quadratic", "cubic"};
     list.push_back({"elements", names[settings.degree - 1], model.elements});
     list.push_back(

@@ -32,6 +32,8 @@ struct MeshModel : fem::MeshChoice {
   std::optional<fem::LoadedMeshProblem> problem{};        ///< absent when the stiffness is given
 
   [[nodiscard]] bool computed() const { return problem.has_value(); }
+  /// Computed with finite elements, and not by formulas alone.
+  [[nodiscard]] bool has_elements() const { return computed() && settings.fidelity != fem::Fidelity::closed_form; }
   /// Index of the nominal load among those of a computed mesh: the middle one, at which the accuracy is met.
   [[nodiscard]] std::size_t nominal_load() const { return problem->loads.size() / 2; }
   /// Identity of all inputs this mesh's results depend on.

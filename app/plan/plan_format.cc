@@ -9,6 +9,7 @@
 #include "app/results/content_id.h"
 #include "app/scene/inputs_json.h"
 #include "core/json.h"
+#include "core/text_columns.h"
 
 namespace annulus::app {
 
@@ -26,16 +27,10 @@ static void to_json(Json& json, const StudyPlan& s) {
 
 namespace {
 
-/// printf pads bytes; this pads characters, so that "µm" and "kg m²" line up. What follows stays apart.
-std::string pad(const std::string& text, std::size_t width) {
-  std::size_t characters = 0;
-  for (const char c : text) characters += (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  return text + std::string(characters < width ? width - characters : 1, ' ');
-}
-
 std::string quantity_lines(const std::vector<Quantity>& quantities) {
   std::string text;
-  for (const auto& q : quantities) text += "  " + pad(to_text(q.value, 8) + " " + q.unit, 26) + q.meaning + "\n";
+  for (const auto& q : quantities)
+    text += "  " + left_aligned(to_text(q.value, 8) + " " + q.unit, 26) + q.meaning + "\n";
   return text;
 }
 
@@ -44,7 +39,8 @@ std::string decision_lines(const std::vector<Decision>& list) {
   for (const auto& d : list) longest = std::max(longest, d.choice.size());
   std::string text;
   for (const auto& d : list)
-    text += "    " + pad(d.what, 26) + pad(d.choice, std::min<std::size_t>(longest, 30) + 2) + d.reason + "\n";
+    text += "    " + left_aligned(d.what, 26) + left_aligned(d.choice, std::min<std::size_t>(longest, 30) + 2) +
+            d.reason + "\n";
   return text;
 }
 
@@ -59,7 +55,7 @@ std::string cost_lines(const Plan& plan) {
   if (cost.empty()) return "";
   std::string text = fmt::format("\nPredicted cost on {} thread{}\n", cost.threads, cost.threads == 1 ? "" : "s");
   for (const auto& step : cost.steps) {
-    text += "  " + pad(step.label, 34) + fmt::format("{:>10}", duration_text(step.predicted.seconds));
+    text += "  " + left_aligned(step.label, 34) + fmt::format("{:>10}", duration_text(step.predicted.seconds));
     if (step.kind == CostKind::mesh || step.kind == CostKind::response)
       text += fmt::format("{:>11}", memory_text(step.predicted.peak_MB));
     if (step.kind == CostKind::mesh && step.size.unknowns > 0)
@@ -68,15 +64,15 @@ std::string cost_lines(const Plan& plan) {
           std::isfinite(step.expected_error) ? fmt::format("{:.2g} %", 100 * step.expected_error) : "not known");
     text += "\n";
     if (step.further)
-      text += "    " + pad("if " + step.follow, 32) +
+      text += "    " + left_aligned("if " + step.follow, 32) +
               fmt::format("{:>10}{:>11}\n", duration_text(step.further->seconds), memory_text(step.further->peak_MB));
   }
-  text += "  " + pad("in all", 34) +
+  text += "  " + left_aligned("in all", 34) +
           fmt::format("{:>10}{:>11}\n", duration_text(cost.seconds()), memory_text(cost.peak_MB()));
   const bool open =
       std::any_of(cost.steps.begin(), cost.steps.end(), [](const auto& s) { return s.further.has_value(); });
   if (const auto worst = cost.at_worst(); open)
-    text += "  " + pad("at worst", 34) +
+    text += "  " + left_aligned("at worst", 34) +
             fmt::format("{:>10}{:>11}   --max-time and --max-memory are compared with this\n",
                         duration_text(worst.seconds()), memory_text(worst.peak_MB()));
   if (cost.pace != 1)
@@ -108,7 +104,7 @@ std::string input_lines(const std::vector<Input>& inputs) {
   for (const auto& input : inputs) {
     if (!input.ring.empty() && input.ring != ring) text += "  ring '" + input.ring + "'\n";
     ring = input.ring;
-    text += "  " + pad(input.key, 40) + pad(to_text(input.value) + " " + input.unit, 30) +
+    text += "  " + left_aligned(input.key, 40) + left_aligned(to_text(input.value) + " " + input.unit, 30) +
             (input.assumed.empty() ? "  " : "* ") + to_text(input.origin);
     if (input.origin != Origin::scene && !input.note.empty()) text += " (" + input.note + ")";
     text += "\n";
@@ -130,18 +126,19 @@ std::string assumed_lines(const std::vector<Input>& inputs) {
 std::string overview(const Plan& plan) {
   std::string text = plan.title + "\n\nMeshes\n";
   for (const auto& mesh : plan.meshes)
-    text += "  " + pad(mesh.label(), 36) + pad(mesh.fidelity, 14) +
+    text += "  " + left_aligned(mesh.label(), 36) + left_aligned(mesh.fidelity, 14) +
             (mesh.computed() ? fmt::format("{} phases, {} ring position{}; ", mesh.problem->phases, mesh.positions,
                                            mesh.positions == 1 ? "" : "s")
                              : "") +
             mesh.reason + "\n";
   if (!plan.motion.empty()) text += "\nMotion\n";
-  for (const auto& d : plan.motion) text += "  " + pad(d.what, 36) + d.choice + "\n";
+  for (const auto& d : plan.motion) text += "  " + left_aligned(d.what, 36) + d.choice + "\n";
   std::vector<std::string> dropped;
   for (const auto& f : plan.dofs)
     if (!f.kept) dropped.push_back(f.name);
   if (!dropped.empty())
-    text += "  " + pad("rigid, degrees of freedom dropped", 36) + fmt::format("{}\n", fmt::join(dropped, "; "));
+    text +=
+        "  " + left_aligned("rigid, degrees of freedom dropped", 36) + fmt::format("{}\n", fmt::join(dropped, "; "));
   return text + study_lines(plan) + cost_lines(plan) + warning_lines(plan) +
          "\n--inputs lists every input with its origin, reasons and remarks.\n";
 }
@@ -159,7 +156,7 @@ std::string to_text(const Plan& plan) {
 
   if (!plan.dofs.empty()) text += "\nLumped model\n" + decision_lines(plan.motion);
   for (const auto& f : plan.dofs)
-    text += fmt::format("  {} {} {}\n", f.kept ? "retained" : "dropped ", pad(f.name, 18), f.reason);
+    text += fmt::format("  {} {} {}\n", f.kept ? "retained" : "dropped ", left_aligned(f.name, 18), f.reason);
 
   text += study_lines(plan) + "\nRemarks\n";
   for (const auto& remark : plan.remarks) text += "  " + remark + "\n";
@@ -181,7 +178,7 @@ std::string to_json(const Plan& plan) {
       item["phases"] = mesh.problem->phases;
       item["ring_positions"] = mesh.positions;
       item["loads_N"] = mesh.problem->loads;
-      if (mesh.settings.fidelity != fem::Fidelity::closed_form) item["degree"] = mesh.settings.degree;
+      if (mesh.has_elements()) item["degree"] = mesh.settings.degree;
       for (const auto& step : plan.cost.steps) {
         if (step.kind != CostKind::mesh || step.label != mesh.label()) continue;
         item["predicted_s"] = json_number(step.predicted.seconds);

@@ -8,6 +8,7 @@
 #include "app/model/definitions.h"
 #include "app/model/gear_system.h"
 #include "app/sections/report_parts.h"
+#include "core/text_columns.h"
 
 namespace annulus::app {
 
@@ -253,7 +254,7 @@ std::string key_results_text(const SystemRun& run) {
     return with_unit(spec.title, spec.unit) + (has_spread(spec, variants) ? spread_words : "");
   };
   std::size_t width = 0;
-  for (const auto& spec : specs) width = std::max(width, title_of(spec).size());
+  for (const auto& spec : specs) width = std::max(width, characters(title_of(spec)));
   std::string text;
   const auto line = [&](const std::string& title, auto cells) {
     text += fmt::format("{:<{}}", title, width);

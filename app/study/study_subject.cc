@@ -35,9 +35,8 @@ std::filesystem::path StudySubject::folder(std::size_t variant) const {
 }
 
 bool StudySubject::solves_elements() const {
-  return std::any_of(tables_.begin(), tables_.end(), [](const MeshResult& table) {
-    return table.model.computed() && table.model.settings.fidelity != fem::Fidelity::closed_form;
-  });
+  return std::any_of(tables_.begin(), tables_.end(),
+                     [](const MeshResult& table) { return table.model.has_elements(); });
 }
 
 bool StudySubject::prepare(const StudyCase& changed) const {

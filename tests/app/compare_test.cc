@@ -104,6 +104,15 @@ BOOST_AUTO_TEST_CASE(differences_are_held_against_the_error_bars_together) {
   BOOST_TEST(has_text(text, "1.000 ± 0.010"));
   BOOST_TEST(has_text(text, "12.50 s, 346 MB, 1 results read back"));
 
+  // In files the key states the unit.
+  const auto results = app::comparison_json(runs).at("results");
+  const auto stiffness = std::find_if(results.begin(), results.end(), [](const Json& item) {
+    return item.at("key") == "ring_planet_mean_stiffness_N_per_m";
+  });
+  BOOST_TEST_REQUIRE((stiffness != results.end()));
+  BOOST_TEST(stiffness->at("values").at(1).at("value").get<double>() == 1.05e9, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(stiffness->at("values").at(1).at("error").get<double>() == 1.05e7, boost::test_tools::tolerance(1e-12));
+
   const auto csv = app::comparison_csv(runs);
   const auto rows = rows_with(csv, "Mean stiffness of the ring mesh,kN/µm,");
   BOOST_TEST_REQUIRE(rows.size() == 5U);

@@ -47,6 +47,16 @@ double pattern_of_errors(const PlanetaryStage& s, int c) {
   return sum;
 }
 
+/// Largest load-sharing factor of five planets over all mesh cycles, of `positions` columns each.
+double worst_sharing(const Eigen::MatrixXd& sun_force, int positions) {
+  double worst = 0;
+  for (Eigen::Index c = 0; c < sun_force.cols(); c += positions) {
+    const Eigen::VectorXd force = sun_force.middleCols(c, positions).rowwise().mean().cwiseAbs();
+    worst = std::max(worst, 5 * force.maxCoeff() / force.sum());
+  }
+  return worst;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(sharing_tolerances)
@@ -118,11 +128,7 @@ BOOST_AUTO_TEST_CASE(no_other_cycle_is_worse) {
       s.sun_torque *= share;
       const auto path = quasi_static(s, positions, 100000);
       separated += (path.sun_force.array().abs() < 1).cast<double>().mean();
-      double worst = 0;
-      for (Eigen::Index c = 0; c < path.sun_force.cols(); c += positions) {
-        const Eigen::VectorXd force = path.sun_force.middleCols(c, positions).rowwise().mean().cwiseAbs();
-        worst = std::max(worst, 5 * force.maxCoeff() / force.sum());
-      }
+      const double worst = worst_sharing(path.sun_force, positions);
       const double found = error_period_sharing(s, {1}).factors.front();
       BOOST_TEST(found <= worst * (1 + 1e-9));
       const auto* torque = share == 10 ? "nominal" : share == 1 ? "a tenth" : "a twentieth";
@@ -160,11 +166,7 @@ BOOST_AUTO_TEST_CASE(no_other_cycle_is_worse_on_a_ring_that_changes_from_tooth_t
                                 : drawn_assembly(nominal, {.planet_pin_position = 15e-6, .planet_eccentricity = 15e-6},
                                                  5, assembly);
     const auto path = quasi_static(s, positions, 100000);
-    double worst = 0;
-    for (Eigen::Index c = 0; c < path.sun_force.cols(); c += positions) {
-      const Eigen::VectorXd force = path.sun_force.middleCols(c, positions).rowwise().mean().cwiseAbs();
-      worst = std::max(worst, 5 * force.maxCoeff() / force.sum());
-    }
+    const double worst = worst_sharing(path.sun_force, positions);
     const double found = error_period_sharing(s, {1}).factors.front();
     BOOST_TEST(found <= worst * (1 + 1e-9));
     record.close(assembly < 0 ? "load-sharing factor without errors" : "load-sharing factor with errors", "", found,

@@ -7,6 +7,8 @@
 #include <map>
 #include <sstream>
 
+#include "core/text_columns.h"
+
 namespace annulus::app {
 
 std::string escape(const std::string& text) {
@@ -70,10 +72,7 @@ namespace {
 
 constexpr double title_line = 16;
 
-/// Characters, not bytes.
-double length_of(const std::string& text) {
-  return static_cast<double>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
+double length_of(const std::string& text) { return static_cast<double>(characters(text)); }
 
 }  // namespace
 

@@ -151,7 +151,7 @@ std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved,
 bool may_be_coupled(const Scene& scene, const MeshModel& model) {
   if (!scene.dynamics || scene.dynamics->rim_coupling == RimCoupling::none || scene.stage.planets == 1) return false;
   if (model.mesh != ring_planet || !model.computed() || rests_in_bore(model.problem->structure)) return false;
-  if (model.settings.fidelity != fem::Fidelity::closed_form) return true;
+  if (model.has_elements()) return true;
   return scene.fidelity == Fidelity::automatic && scene.accuracy < fem::very_rough_accuracy &&
          fem::on_single_supports(model.problem->structure);
 }
