@@ -103,6 +103,31 @@ Values finer_with_jumps(const Values& values, int phases, int parts, JumpSide si
   return result;
 }
 
+/// The table with the curves `values_of(load index, value of the entries)` at `phases` phases; without error estimates.
+template <class ValuesOf>
+StiffnessTable from_curves(const StiffnessTable& table, int phases, ValuesOf values_of) {
+  const std::size_t loads = table.loads().size();
+  std::vector<StiffnessEntry> entries(static_cast<std::size_t>(table.positions() * phases) * loads);
+  for (std::size_t load = 0; load < loads; ++load) {
+    const auto with = [&](double StiffnessEntry::*value) { return values_of(static_cast<int>(load), value); };
+    const auto secant = with(&StiffnessEntry::stiffness_secant), tangent = with(&StiffnessEntry::stiffness_tangent),
+               unloaded_te = with(&StiffnessEntry::unloaded_te);
+    for (std::size_t i = 0; i < secant.size(); ++i)
+      entries[i * loads + load] = {.unloaded_te = unloaded_te[i],
+                                   .lte = unloaded_te[i] + table.loads()[load] / secant[i],
+                                   .stiffness_secant = secant[i],
+                                   .stiffness_tangent = tangent[i]};
+  }
+  StiffnessTable result(table.mesh(), phases, table.ring_angles(), table.loads(), std::move(entries));
+  result.provenance = table.provenance;
+  return result;
+}
+
+void need_even_phases(const StiffnessTable& table) {
+  if (table.phases() % 2)
+    throw InputError(fmt::format("stiffness table {}: {} phases cannot be halved", table.mesh(), table.phases()));
+}
+
 }  // namespace
 
 StiffnessTable stiffer(const StiffnessTable& table) {
@@ -121,31 +146,32 @@ StiffnessTable more_rippled(const StiffnessTable& table) {
 }
 
 StiffnessTable coarser(const StiffnessTable& table) {
-  if (table.phases() % 2)
-    throw InputError(fmt::format("stiffness table {}: {} phases cannot be halved", table.mesh(), table.phases()));
+  need_even_phases(table);
   return changed(table, 2, [](const StiffnessEntry& e, int) { return e; });
 }
 
+StiffnessTable through_odd_phases(const StiffnessTable& table) {
+  need_even_phases(table);
+  return from_curves(table, table.phases(), [&](int load, double StiffnessEntry::*value) {
+    const auto given = over_phases(table, load, value);
+    Values odd;
+    for (std::size_t i = 1; i < given.size(); i += 2) odd.push_back(given[i]);
+    const PeriodicCurve curve(odd, table.phases() / 2);
+    Values values;
+    for (std::size_t i = 0; i < given.size(); ++i)
+      values.push_back(curve((static_cast<double>(i) - 1) / table.phases()));
+    return values;
+  });
+}
+
 StiffnessTable with_jumps(const StiffnessTable& table, JumpSide side, double uptake) {
-  const std::size_t loads = table.loads().size();
-  const int parts = parts_of_interval(table), phases = parts * table.phases();
-  std::vector<StiffnessEntry> entries(static_cast<std::size_t>(table.positions() * phases) * loads);
-  for (std::size_t load = 0; load < loads; ++load) {
-    const auto given = [&](double StiffnessEntry::*value) { return over_phases(table, static_cast<int>(load), value); };
-    const auto with = [&](double StiffnessEntry::*value) {
-      return finer_with_jumps(given(value), table.phases(), parts, side, jump_length(table, load, uptake));
-    };
-    const auto secant = with(&StiffnessEntry::stiffness_secant), tangent = with(&StiffnessEntry::stiffness_tangent);
-    const auto unloaded_te = finer(given(&StiffnessEntry::unloaded_te), table.phases(), parts);
-    for (std::size_t i = 0; i < secant.size(); ++i)
-      entries[i * loads + load] = {.unloaded_te = unloaded_te[i],
-                                   .lte = unloaded_te[i] + table.loads()[load] / secant[i],
-                                   .stiffness_secant = secant[i],
-                                   .stiffness_tangent = tangent[i]};
-  }
-  StiffnessTable result(table.mesh(), phases, table.ring_angles(), table.loads(), std::move(entries));
-  result.provenance = table.provenance;
-  return result;
+  const int parts = parts_of_interval(table);
+  return from_curves(table, parts * table.phases(), [&](int load, double StiffnessEntry::*value) {
+    const auto given = over_phases(table, load, value);
+    if (value == &StiffnessEntry::unloaded_te) return finer(given, table.phases(), parts);
+    return finer_with_jumps(given, table.phases(), parts, side,
+                            jump_length(table, static_cast<std::size_t>(load), uptake));
+  });
 }
 
 double largest_jump(const StiffnessTable& table, double uptake) {

@@ -13,6 +13,9 @@ namespace annulus {
 [[nodiscard]] StiffnessTable more_rippled(const StiffnessTable& table);
 /// Every second phase only: what the interpolation between the phases does. Throws InputError for an odd number.
 [[nodiscard]] StiffnessTable coarser(const StiffnessTable& table);
+/// The same with the other half of the phases: the curve through them gives the values at the phases between. A largest
+/// value that is at a phase `coarser` keeps shows only here. Throws InputError for an odd number.
+[[nodiscard]] StiffnessTable through_odd_phases(const StiffnessTable& table);
 
 /// Where between two phases a tooth pair takes up or gives up its load, which the curve through them does not know.
 enum class JumpSide { stiffer, softer };

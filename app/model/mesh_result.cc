@@ -95,19 +95,25 @@ Estimate with_interpolation(Estimate mean, const MeshResult& mesh, double (*quan
   return mean;
 }
 
-}  // namespace
-
-Estimate MeshResult::mean_stiffness() const {
+/// The mean of a stiffness over the table at the nominal load; the relative errors are those of the secant.
+template <double StiffnessEntry::*stiffness>
+Estimate mean_of(const MeshResult& mesh) {
   double sum = 0, error = 0;
   ErrorParts parts;
-  at_load(table, nominal, [&](const StiffnessEntry& e) {
-    sum += e.stiffness_secant;
-    error += e.error_relative * e.stiffness_secant;
-    parts += e.stiffness_secant * e.error_parts;
+  at_load(mesh.table, mesh.nominal, [&](const StiffnessEntry& e) {
+    sum += e.*stiffness;
+    error += e.error_relative * e.*stiffness;
+    parts += e.*stiffness * e.error_parts;
   });
-  return with_interpolation({sum / (table.positions() * table.phases()), error / sum, (1 / sum) * parts}, *this,
-                            [](const StiffnessEntry& e) { return e.stiffness_secant; });
+  return with_interpolation({sum / (mesh.table.positions() * mesh.table.phases()), error / sum, (1 / sum) * parts},
+                            mesh, [](const StiffnessEntry& e) { return e.*stiffness; });
 }
+
+}  // namespace
+
+Estimate MeshResult::mean_stiffness() const { return mean_of<&StiffnessEntry::stiffness_secant>(*this); }
+
+Estimate MeshResult::mean_tangent() const { return mean_of<&StiffnessEntry::stiffness_tangent>(*this); }
 
 double MeshResult::worst_stiffness_error() const {
   double worst = 0;

@@ -62,6 +62,7 @@ struct MeshResult {
   bool reused = false;
 
   [[nodiscard]] Estimate mean_stiffness() const;  ///< N/m, secant, at the nominal load
+  [[nodiscard]] Estimate mean_tangent() const;    ///< N/m, of small vibrations about the nominal load: for modes
   /// Relative, of any position at the nominal load.
   [[nodiscard]] double worst_stiffness_error() const;
   [[nodiscard]] Estimate lte_mean() const;  ///< m, at the nominal load

@@ -205,7 +205,7 @@ std::optional<CostRun> finer_size(const MeshModel& model) {
 }
 
 int comparisons(int tables) {
-  constexpr int of_each = 2, of_all = 4;
+  constexpr int of_each = 2, of_all = 5;
   return tables > 0 ? of_all + of_each * tables : 0;
 }
 

@@ -124,15 +124,17 @@ Blocks error_parts(const std::vector<FigureSpec>& specs, const std::vector<Varia
   return heading("Parts of the error bars", "error-bars") +
          details(
              "Parts of the errors, in % of the value",
-             table + paragraph("Discretisation: difference between two levels of mesh refinement. Local contact: "
-                               "change of the flank pressure with twice as many pressure elements. Condensation: "
-                               "asymmetry of the compliance between tooth pairs. Model choice: plane strain for a face "
-                               "of finite width, or formulas for teeth. Solid elements (model = \"solid\") need no "
-                               "plane strain. Results of the lumped model: all stiffnesses of a mesh, or their ripple, "
-                               "are raised by their error estimate. The larger of the two changes counts, summed over "
-                               "all meshes. Table interpolation: change with every second position of the tables. Time "
-                               "integration: sampling, steady state and integrator. The error is the sum of its parts. "
-                               "It is not known when one of its parts is not known. Prescribed stiffness is exact."));
+             table +
+                 paragraph(
+                     "Discretisation: difference between two levels of mesh refinement. Local contact: "
+                     "change of the flank pressure with twice as many pressure elements. Condensation: "
+                     "asymmetry of the compliance between tooth pairs. Model choice: plane strain for a face "
+                     "of finite width, or formulas for teeth. Solid elements (model = \"solid\") need no "
+                     "plane strain. Results of the lumped model: all stiffnesses of a mesh, or their ripple, "
+                     "are raised by their error estimate. The larger of the two changes counts, summed over "
+                     "all meshes. Table interpolation: change with either half of the positions of the tables. Time "
+                     "integration: sampling, steady state and integrator. The error is the sum of its parts. "
+                     "It is not known when one of its parts is not known. Prescribed stiffness is exact."));
 }
 
 }  // namespace

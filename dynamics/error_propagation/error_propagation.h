@@ -44,10 +44,11 @@ struct TabulatedModel {
 /// The nominal results with the parts of their errors and the sum of these as error:
 /// - discretisation, contact, condensation, model: the largest |difference| with the stiffness or its ripple raised by
 ///   its error estimate (core/table_variants.h), mesh by mesh, divided in the proportions of that stiffness' own parts;
-/// - interpolation: the |difference| with every second phase only, all meshes at once, or a quarter of that with every
-///   fourth one where that is larger: curves between the phases converge with an order between one (where slopes jump)
-///   and two; or the |difference| with what the stiffness jumps between two phases made as suddenly as tooth pairs take
-///   up their load, and as early or as late as possible, where that is larger. Not known for an odd number of phases;
+/// - interpolation: the |difference| with every second phase only, all meshes at once, or with the others only, or a
+///   quarter of that with every fourth one, whichever is largest: curves between the phases converge with an order
+///   between one (where slopes jump) and two; or the |difference| with what the stiffness jumps between two phases made
+///   as suddenly as tooth pairs take up their load, and as early or as late as possible, where that is larger. Not
+///   known for an odd number of phases;
 /// - integration: the nominal error.
 /// Errors of frequencies are then widened to neighbours that may change places with them.
 /// A part is not known (NaN) where the model cannot be solved on a changed table.

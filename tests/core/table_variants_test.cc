@@ -68,6 +68,28 @@ StiffnessTable curve_of(const std::vector<double>& stiffness) {
   return {"mesh", static_cast<int>(stiffness.size()), {0.0}, {1e3}, entries};
 }
 
+BOOST_AUTO_TEST_CASE(the_other_half_of_the_phases_gives_the_ones_between) {
+  const auto table = sample(), changed = through_odd_phases(table);
+  BOOST_TEST(changed.phases() == table.phases());
+  for_each_entry(changed, [&](int position, int phase, int load, const StiffnessEntry& e) {
+    // Odd phases stay. Between two knots a curve without overshoot lies between them: the next ones, over all
+    // positions.
+    const auto value = [&](int steps) {
+      const int all = table.positions() * table.phases(), i = (position * table.phases() + phase + steps + all) % all;
+      return table.at(i / table.phases(), i % table.phases(), load).stiffness_secant;
+    };
+    if (phase % 2 == 1) {
+      BOOST_TEST(e.stiffness_secant == value(0), boost::test_tools::tolerance(1e-14));
+    } else {
+      BOOST_TEST(e.stiffness_secant >= std::min(value(-1), value(1)) * (1 - 1e-14));
+      BOOST_TEST(e.stiffness_secant <= std::max(value(-1), value(1)) * (1 + 1e-14));
+    }
+    BOOST_TEST(e.stiffness_secant * (e.lte - e.unloaded_te) == table.loads()[load],
+               boost::test_tools::tolerance(1e-12));
+  });
+  BOOST_CHECK_THROW((void)through_odd_phases(curve_of({1e9, 2e9, 3e9})), annulus::InputError);
+}
+
 std::vector<double> stiffnesses(const StiffnessTable& table) {
   std::vector<double> values;
   for (int phase = 0; phase < table.phases(); ++phase) values.push_back(table.at(0, phase, 0).stiffness_secant);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/model/table_errors.h"
+#include "app/systems/planetary/rim_coupling.h"
 
 namespace annulus::app {
 
@@ -58,17 +59,17 @@ dynamics::PlanetaryStage with_moved_supports(dynamics::PlanetaryStage stage, int
   return stage;
 }
 
-/// Adds to the model's part of every error what the place of the supports under back flanks changes.
-void add_back_flanks(const StageTables& tables, const dynamics::ComparisonOptions& way, FigureSet& figures) {
-  const auto nominal = tables.make(tables.sun_mesh, tables.ring_mesh);
+/// Adds to the model's part of every error what changes from one stage to another.
+void add_change(const dynamics::PlanetaryStage& here, const dynamics::PlanetaryStage& there,
+                const dynamics::ComparisonOptions& way, FigureSet& figures) {
   const auto on = [&](const dynamics::PlanetaryStage& stage) {
     return evaluation_of(dynamics::simulate(stage, way.simulation)).figures;
   };
-  const auto here = on(nominal), there = on(with_moved_supports(nominal, tables.ring_mesh.table.positions()));
+  const auto before = on(here), after = on(there);
   const auto known = figures;
   for (const auto& entry : known.entries()) {
     auto parts = entry.parts;
-    parts.model += std::abs(there.value(entry.key) - here.value(entry.key));
+    parts.model += std::abs(after.value(entry.key) - before.value(entry.key));
     figures.set(entry.key, {entry.figure.value, parts.total()}, parts);
   }
 }
@@ -84,7 +85,10 @@ ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::Si
         return evaluation_of(dynamics::simulate(tables.make(*changed.front(), *changed.back()), way.simulation));
       },
       way);
-  if (on_back_flanks(nominal.ring_planet, tables.ring_mesh)) add_back_flanks(tables, way, found);
+  const auto stage = tables.make(tables.sun_mesh, tables.ring_mesh);
+  if (on_back_flanks(nominal.ring_planet, tables.ring_mesh))
+    add_change(stage, with_moved_supports(stage, tables.ring_mesh.table.positions()), way, found);
+  if (const auto coupled = with_omitted_coupling(stage, tables.ring_mesh)) add_change(stage, *coupled, way, found);
   ResponseErrors errors;
   for_each_figure(nominal, errors,
                   [&](const std::string& key, const Figure&, ErrorParts& parts) { parts = found.find(key)->parts; });

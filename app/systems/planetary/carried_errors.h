@@ -29,7 +29,8 @@ struct StageTables {
 
 /// The parts of the error of every figure of `nominal`, which was simulated with `options` on `tables`, by
 /// dynamics/error_propagation. Prescribed stiffness is exact. Where back flanks carry on a ring that changes from tooth
-/// to tooth, the model's part has what the results change when its supports stand elsewhere under them.
+/// to tooth, the model's part has what the results change when its supports stand elsewhere under them; where the
+/// coupling of the meshes is left out as negligible, it has what the coupling changes.
 [[nodiscard]] ResponseErrors carried_errors(const dynamics::DynamicResponse& nominal,
                                             const dynamics::SimulationOptions& options, const StageTables& tables);
 

@@ -46,7 +46,9 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
   const auto course = dynamics::steady_course(system, stage.mesh_frequency(), period, options, stiffness);
   const double per_cycle =
       dynamics::integration_seconds(system, stage.mesh_frequency(), 1, options.integrator, stiffness);
-  const double runs = comparisons(tables) + (tables > 0 ? 1 : 0);  // and on the unchanged tables in the same way
+  // And on the unchanged tables in the same way; with and without a coupling that is left out as negligible.
+  const double runs = comparisons(tables) + (tables > 0 ? 1 : 0) +
+                      (may_be_coupled(scene, ring) && fem::held_outside(ring.problem->structure) ? 2 : 0);
   // The effect of the coupling, where it is found to matter: up to three responses as long as this one, or none.
   constexpr double effect_cycles = 330;
   const double cycles =

@@ -26,7 +26,7 @@ namespace annulus::app {
 
 namespace {
 
-// The coupling is applied beyond this part of the wanted accuracy: what is left out is in no error.
+// The coupling is applied beyond this part of the wanted accuracy; what it would change below is in the errors.
 constexpr double part_of_accuracy = 0.1;
 constexpr int coupling_level = 1;  // the far field converges fast; its error is estimated
 /// Modes up to this multiple of the mesh frequency: the mesh excites little beyond.
@@ -146,6 +146,14 @@ std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved,
   auto coupling = std::make_shared<RingCoupling>(solved.coupling);
   if (taken != RimCoupling::elastic) coupling->modes.clear();
   return coupling;
+}
+
+std::optional<dynamics::PlanetaryStage> with_omitted_coupling(const dynamics::PlanetaryStage& stage,
+                                                              const MeshResult& ring_mesh) {
+  if (!ring_mesh.coupling || stage.ring_coupling) return std::nullopt;
+  auto coupled = stage;
+  coupled.ring_coupling = taken_coupling(*ring_mesh.coupling, RimCoupling::statical);
+  return coupled;
 }
 
 bool may_be_coupled(const Scene& scene, const MeshModel& model) {

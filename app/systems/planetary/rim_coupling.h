@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/plan/gear_geometry.h"
@@ -9,9 +10,11 @@
 #include "app/scene/scene.h"
 #include "core/csv.h"
 #include "core/ring_coupling.h"
+#include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::app {
 
+struct MeshResult;
 struct RunOptions;
 
 /// How the meshes of one ring act on each other through it, solved, with what is needed to judge it.
@@ -43,6 +46,9 @@ struct CouplingChoice {
 /// The coupling as a stage takes it: without modes for `statical`; nothing for `none`.
 [[nodiscard]] std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved, RimCoupling taken);
 
+/// The stage with the static coupling of its ring that was solved and left out as negligible; nothing where it was not.
+[[nodiscard]] std::optional<dynamics::PlanetaryStage> with_omitted_coupling(const dynamics::PlanetaryStage& stage,
+                                                                            const MeshResult& ring_mesh);
 /// Whether the scene lets this mesh be coupled: dynamics wanted, a computed ring, several planets, coupling not ruled
 /// out. It takes elements: with formulas it is solved where the planner chose these for a ring on single supports, and
 /// the accuracy is not very rough.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/units.h"
@@ -48,7 +50,7 @@ void add_campbell(StageModes& result, const dynamics::PlanetaryStage& stage) {
 }  // namespace
 
 MeshStiffnessErrors stiffness_errors(const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
-  const auto sun = sun_mesh.mean_stiffness(), ring = ring_mesh.mean_stiffness();
+  const auto sun = sun_mesh.mean_tangent(), ring = ring_mesh.mean_tangent();
   MeshStiffnessErrors errors = {{.groups = {sun_planet}, .relative = sun.error_relative, .parts = sun.parts},
                                 {.groups = {ring_planet}, .relative = ring.error_relative, .parts = ring.parts}};
   if (!ring_mesh.coupling) return errors;
@@ -88,6 +90,15 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnes
   }
   if (stage.carrier_speed > 0) add_campbell(result, stage);
   return result;
+}
+
+void add_model_change(StageModes& modes, const dynamics::PlanetaryStage& other) {
+  const auto changed = dynamics::modes(other).modes;
+  for (std::size_t i = 0; i < modes.list.size(); ++i) {
+    auto& mode = modes.list[i];
+    mode.error_parts.model += std::abs(changed.at(i).frequency - mode.frequency);
+    mode.frequency_error = mode.error_parts.total();
+  }
 }
 
 FigureSet frequency_figures(const StageModes& modes) {

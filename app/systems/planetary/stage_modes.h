@@ -31,12 +31,15 @@ struct StageModes {
   Csv critical_speeds;              ///< where mesh orders meet them
 };
 
-/// Relative errors of the mean mesh stiffnesses and of the frequencies of the elastic ring.
+/// Relative errors of the mean tangents of the meshes and of the frequencies of the elastic ring.
 using MeshStiffnessErrors = std::vector<dynamics::GroupError>;
 [[nodiscard]] MeshStiffnessErrors stiffness_errors(const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 
 /// Modes with the errors of their frequencies, see dynamics::frequency_errors.
 [[nodiscard]] StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnessErrors& errors);
+
+/// Adds to the model's part of every error what changes when `other` replaces the stage, with the same DOFs.
+void add_model_change(StageModes& modes, const dynamics::PlanetaryStage& other);
 
 /// The distinct natural frequencies above zero with their errors, by the keys of dynamics::planetary_figures.
 [[nodiscard]] FigureSet frequency_figures(const StageModes& modes);

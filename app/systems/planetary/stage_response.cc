@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/results/content_id.h"
+#include "app/systems/planetary/rim_coupling.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "dynamics/figures/spectrum.h"
@@ -133,7 +134,9 @@ void check_power(const dynamics::PlanetaryStage& stage, const dynamics::DynamicR
 /// The modes; what makes the elastic modes of a ring unusable is the choice of a key.
 StageModes modes_of(const dynamics::PlanetaryStage& stage, const StageTables& tables) {
   try {
-    return stage_modes(stage, stiffness_errors(tables.sun_mesh, tables.ring_mesh));
+    auto modes = stage_modes(stage, stiffness_errors(tables.sun_mesh, tables.ring_mesh));
+    if (const auto coupled = with_omitted_coupling(stage, tables.ring_mesh)) add_model_change(modes, *coupled);
+    return modes;
   } catch (const SolverError& error) {
     if (!stage.ring_coupling || stage.ring_coupling->modes.empty()) throw;
     throw InputError(
