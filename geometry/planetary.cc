@@ -52,9 +52,9 @@ PlanetarySet::PlanetarySet(const Gear& sun, const Gear& planet, const Gear& ring
   for (std::size_t n = 0; n < planet_angles.size(); ++n) {
     const double angle = planet_angles[n];
     if (!std::isfinite(angle)) throw GeometryError(fmt::format("the angle of planet {} is not a number", n + 1));
-    if (angle < 0 || angle >= 2 * std::numbers::pi || (n > 0 && angle <= planet_angles[n - 1]))
-      throw GeometryError(fmt::format("planet {} at {:.7g} degrees: angles have to rise from 0 and stay below 360",
-                                      n + 1, angle / units::deg));
+    if (angle < 0 || angle >= 2 * std::numbers::pi)
+      throw GeometryError(
+          fmt::format("planet {} at {:.7g} degrees: angles start at 0 and stay below 360", n + 1, angle / units::deg));
     const double step = std::round(angle / assembly_angle());
     if (std::abs(angle - step * assembly_angle()) > angle_tolerance) {
       const double below = std::floor(angle / assembly_angle());
@@ -72,8 +72,10 @@ PlanetarySet::PlanetarySet(const Gear& sun, const Gear& planet, const Gear& ring
 
 void PlanetarySet::check_room() const {
   if (planets() == 1) return;
-  int nearest = whole_turn() - steps_.back();
-  for (std::size_t n = 1; n < steps_.size(); ++n) nearest = std::min(nearest, steps_[n] - steps_[n - 1]);
+  auto places = steps_;
+  std::sort(places.begin(), places.end());
+  int nearest = whole_turn() - places.back();
+  for (std::size_t n = 1; n < places.size(); ++n) nearest = std::min(nearest, places[n] - places[n - 1]);
   const double gap =
       2 * centre_distance() * std::sin(std::numbers::pi * nearest / whole_turn()) - 2 * planet().tip_radius();
   const double needed = planet_clearance * planet().parameters().module;

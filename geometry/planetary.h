@@ -6,7 +6,7 @@
 
 namespace annulus::geometry {
 
-/// A single-stage planetary set, ring fixed to its structure. The hands of helical gears follow from the planet's: the
+/// A single-stage planetary set. The hands of helical gears follow from the planet's: the
 /// sun has the opposite one, the ring the same. Phases are those of the transverse sections at z = 0. Construction
 /// throws GeometryError with the reason: planets where they do not fit between the teeth (see `assembly_angle`),
 /// planets that collide (tip circles nearer than `planet_clearance`), and all that GearPair refuses.
@@ -14,8 +14,8 @@ class PlanetarySet {
  public:
   /// Equally spaced planets: (z_s + z_r) / N has to be whole.
   PlanetarySet(const Gear& sun, const Gear& planet, const Gear& ring, double centre_distance, int planets);
-  /// Planets at these angles (rad), 0 and rising, each within `angle_tolerance` of a place where it can be assembled;
-  /// that place is taken.
+  /// Planets at these angles (rad), 0 and further ones, each within `angle_tolerance` of a place where it can be
+  /// assembled; that place is taken.
   PlanetarySet(const Gear& sun, const Gear& planet, const Gear& ring, double centre_distance,
                const std::vector<double>& planet_angles);
 

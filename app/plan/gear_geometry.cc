@@ -1,29 +1,6 @@
 #include "app/plan/gear_geometry.h"
 
-#include <numbers>
-
 namespace annulus::app {
-
-namespace {
-
-/// Ring fixed, sun driving: Willis with standing ratio -z_r / z_s.
-OperatingPoint operate(const StageInput& stage, const geometry::PlanetarySet& set) {
-  const double sun_teeth = set.sun().teeth(), ring_teeth = set.ring().teeth();
-  const double ratio = 1 + ring_teeth / sun_teeth;
-  OperatingPoint point;
-  point.sun_speed = stage.sun_speed ? *stage.sun_speed : *stage.carrier_speed * ratio;
-  point.carrier_speed = point.sun_speed / ratio;
-  point.sun_torque = stage.power        ? *stage.power / point.sun_speed
-                     : stage.sun_torque ? *stage.sun_torque
-                                        : *stage.carrier_torque / ratio;
-  point.carrier_torque = point.sun_torque * ratio;
-  point.power = point.sun_torque * point.sun_speed;
-  point.mesh_frequency = ring_teeth * point.carrier_speed / (2 * std::numbers::pi);
-  point.mean_mesh_force = point.sun_torque / (stage.planets * set.sun().base_radius());
-  return point;
-}
-
-}  // namespace
 
 geometry::GearParameters gear_parameters(const Scene& scene, const GearInput& input, geometry::GearKind kind,
                                          int hand) {
@@ -75,7 +52,8 @@ GearGeometry make_geometry(const Scene& scene) {
     }
     result.rings.push_back({input.name, set, outside});
   }
-  result.operating_point = operate(scene.stage, result.rings.front().set);
+  const auto& set = result.rings.front().set;
+  result.operating_point = operating_point(scene.stage, set.sun().teeth(), set.ring().teeth(), set.sun().base_radius());
   return result;
 }
 

@@ -3,21 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "app/plan/operating_point.h"
 #include "app/scene/scene.h"
 #include "core/errors.h"
 #include "geometry/planetary.h"
 
 namespace annulus::app {
-
-/// Speeds, torques and forces that follow from power or torque, and speed; SI.
-struct OperatingPoint {
-  double power = 0;                         ///< W
-  double sun_speed = 0, carrier_speed = 0;  ///< rad/s
-  double sun_torque = 0;                    ///< N m
-  double carrier_torque = 0;                ///< N m, magnitude
-  double mesh_frequency = 0;                ///< Hz
-  double mean_mesh_force = 0;               ///< N, along the line of action, of each of the 2 N meshes
-};
 
 /// One ring of the scene with the planetary set it makes.
 struct RingGeometry {

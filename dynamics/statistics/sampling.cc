@@ -97,8 +97,8 @@ void Distribution::check() const {
   if (kind == Kind::lognormal && !(mean > 0))
     throw InputError(fmt::format("the mean {} of a lognormal distribution must be positive", mean));
   const double share =
-      kind != Kind::normal && !(high > 0) ? 0.0 : with_law(*this, [](const auto& law, double low, double high) {
-        return probability_between(law, low, high, tail_of(law, low));
+      kind != Kind::normal && !(high > 0) ? 0.0 : with_law(*this, [](const auto& law, double from, double to) {
+        return probability_between(law, from, to, tail_of(law, from));
       });
   if (!(share >= 1e-3))
     throw InputError(fmt::format("{:.2g} of the distribution lies between its ends {} and {}; at least 0.001 is needed",
@@ -109,9 +109,8 @@ double Distribution::quantile(double probability) const {
   if (!(probability > 0 && probability < 1))
     require(false, fmt::format("quantile of a probability {} outside (0, 1)", probability));
   if (kind != Kind::uniform)
-    return with_law(*this, [&](const auto& law, double low, double high) {
-      return truncated_quantile(law, low, high, probability);
-    });
+    return with_law(
+        *this, [&](const auto& law, double from, double to) { return truncated_quantile(law, from, to, probability); });
   return low + probability * (high - low);
 }
 

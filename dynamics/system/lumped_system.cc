@@ -218,9 +218,11 @@ double LumpedSystem::next_jump(double t) const {
     if (mesh.kind != CompiledMesh::Kind::wave || mesh.frequency == 0) continue;
     // A billionth of a cycle ahead: the jump just reached is not found again, and jumps of several meshes that differ
     // by rounding only are one.
-    const double phase = mesh.frequency * t + mesh.phase_offset + 1e-9;
+    const bool backwards = mesh.frequency < 0;
+    const double phase = mesh.frequency * t + mesh.phase_offset + (backwards ? -1e-9 : 1e-9);
     const double start = std::floor(phase);
-    const double jump = phase < start + mesh.duty ? start + mesh.duty : start + 1;
+    const bool high = phase < start + mesh.duty;
+    const double jump = backwards ? (high ? start : start + mesh.duty) : (high ? start + mesh.duty : start + 1);
     next = std::min(next, (jump - mesh.phase_offset) / mesh.frequency);
   }
   return next;

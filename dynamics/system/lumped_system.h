@@ -32,7 +32,7 @@ struct MeshElement {
   std::string name;
   LinearForm b;
   MeshExcitation excitation;
-  double frequency = 0;                 ///< Hz, mesh cycles per second
+  double frequency = 0;                 ///< Hz, mesh cycles per second; negative: they run backwards
   double phase_offset = 0;              ///< mesh cycles at t = 0: the excitation is read at frequency t + phase_offset
   double damping = 0;                   ///< N s/m
   std::optional<double> half_backlash;  ///< m

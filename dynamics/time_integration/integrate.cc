@@ -49,7 +49,8 @@ StateTolerance state_tolerance(const LumpedSystem& system, const IntegratorOptio
   const int n = system.dofs();
   double frequency = 0;
   Eigen::ArrayXd rate(n);
-  for (const auto& mesh : system.meshes()) frequency = std::max(frequency, 2 * std::numbers::pi * mesh.frequency);
+  for (const auto& mesh : system.meshes())
+    frequency = std::max(frequency, 2 * std::numbers::pi * std::abs(mesh.frequency));
   for (int i = 0; i < n; ++i) {
     double stiffness = system.stiffness()(i, i);
     for (std::size_t m = 0; m < system.meshes().size(); ++m)
@@ -153,7 +154,7 @@ class Integration {
     stretch_ = end_ - start_;
     constexpr double cycles_per_stretch = 1e4;
     for (const auto& mesh : system_.meshes())
-      if (mesh.frequency > 0) stretch_ = std::min(stretch_, cycles_per_stretch / mesh.frequency);
+      if (mesh.frequency != 0) stretch_ = std::min(stretch_, cycles_per_stretch / std::abs(mesh.frequency));
   }
 
   /// Up to the next sample, jump or contact event.

@@ -74,7 +74,7 @@ IntegratorChoice choose_integrator(const LumpedSystem& system, double relative_t
   choice.stability_step = choice.implicit_step = std::numeric_limits<double>::infinity();
   choice.least_damping = 1;
   double frequency = 0;
-  for (const auto& mesh : system.meshes()) frequency = std::max(frequency, mesh.frequency);
+  for (const auto& mesh : system.meshes()) frequency = std::max(frequency, std::abs(mesh.frequency));
   if (!(frequency > 0) || system.dofs() == 0) {
     choice.reason = "explicit Runge-Kutta: no mesh sets a frequency";
     return choice;

@@ -138,22 +138,21 @@ SolvedRingCoupling solve_level(const LoadedMeshProblem& problem, const std::vect
   return result;
 }
 
-void check_places(const std::vector<double>& teeth_ahead, int teeth) {
+void check_places(std::vector<double> teeth_ahead, int teeth) {
   if (teeth_ahead.empty() || teeth_ahead.front() != 0)
-
     throw InputError(teeth_ahead.empty() ? "the coupling of ring meshes needs planets, and there are none"
                                          : fmt::format("the first planet has to stand 0 teeth ahead of itself, not {}",
                                                        teeth_ahead.front()));
   // The four teeth that share one mesh force are not those of the next planet.
   constexpr double apart = 4;
-  for (std::size_t n = 0; n < teeth_ahead.size(); ++n) {
-    const double next = n + 1 < teeth_ahead.size() ? teeth_ahead[n + 1] : teeth;
-    if (!std::isfinite(next) || next - teeth_ahead[n] < apart)
+  std::sort(teeth_ahead.begin(), teeth_ahead.end());
+  teeth_ahead.push_back(teeth);
+  for (std::size_t n = 0; n + 1 < teeth_ahead.size(); ++n)
+    if (!std::isfinite(teeth_ahead[n + 1]) || teeth_ahead[n + 1] - teeth_ahead[n] < apart)
       throw InputError(
-          fmt::format("planet {} stands {} ring teeth ahead of planet 1, the next one {}: at least {} have "
-                      "to lie between them",
-                      n + 1, teeth_ahead[n], next, apart));
-  }
+          fmt::format("a planet stands {} ring teeth ahead of planet 1, the next one {}: at least {} have to lie "
+                      "between them",
+                      teeth_ahead[n], teeth_ahead[n + 1], apart));
 }
 
 void check(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,

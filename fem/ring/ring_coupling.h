@@ -51,7 +51,7 @@ struct SolvedRingCoupling {
 };
 
 /// Compliance between the ring meshes of the planets, and the modes of the ring. `teeth_ahead` are the ring teeth by
-/// which each planet stands ahead of the first (PlanetarySet::ring_teeth_ahead): 0 and rising.
+/// which each planet stands ahead of the first (PlanetarySet::ring_teeth_ahead), 0 for the first.
 ///
 /// Of the problem, only pair, material, face width, outside radius and structure are used.
 ///

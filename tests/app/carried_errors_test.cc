@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(back_flanks_of_a_changing_ring_bring_an_error_of_the_model)
   };
   const TableScene exact{.sun_error = 0, .ring_error = 0, .held = true};
   auto still = exact, turned = exact, both = exact;
-  still.pins = both.pins = "0, 0, 0, 400, 0";
+  still.pins = both.pins = "0, 0, 0, 520, 0";
   still.half_backlash = "0";
   turned.positions = both.positions = 3;
   BOOST_TEST(model_part(still) == 0.0);

@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(wrong_paths_and_values_are_refused) {
     check_message(refusal(scene, {std::string("errors.planet_eccentricity_um") + index, 1}),
                   {"from 1 to 5", "number of the planet"});
   check_message(refusal(scene, {"stage.power_kW[1]", 1}), {"not a list"});
-  check_message(refusal(scene, {"stage.carrier_speed_rpm", 100}), {"either sun_speed_rpm or carrier_speed_rpm"});
+  check_message(refusal(scene, {"stage.carrier_speed_rpm", 100}), {"is given beside stage.sun_speed_rpm"});
 }
 
 BOOST_AUTO_TEST_CASE(study_tables_are_checked) {

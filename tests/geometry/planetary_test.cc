@@ -96,8 +96,10 @@ BOOST_AUTO_TEST_CASE(planets_stand_where_they_are_put_if_they_fit) {
   check_refused([&] { (void)at({0, 71, 216}); }, "70.285714 and 72.000000 degrees");
   check_refused([&] { (void)at({12.0 / 7, 72}); }, "first one stands at the angle 0");
   check_refused([&] { (void)at({}); }, "at least one planet");
-  check_refused([&] { (void)at({0, 216, 72}); }, "rise");
-  check_refused([&] { (void)at({0, 72, 360}); }, "rise");
+  check_refused([&] { (void)at({0, 72, 360}); }, "stay below 360");
+  // Any order, each with its number.
+  BOOST_TEST(at({0, 216, 72}).planet_angle(1) == 216 * units::deg, boost::test_tools::tolerance(1e-15));
+  check_refused([&] { (void)at({0, 216, 72, 216}); }, "collide");
   check_refused([&] { (void)at({0, std::nan("")}); }, "not a number");
   check_refused([&] { (void)at({0, 48, 216}); }, "collide");
   check_refused([&] { (void)at({0, 72, 312}); }, "collide");

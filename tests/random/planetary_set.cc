@@ -42,6 +42,30 @@ std::vector<double> planet_angles(const Teeth& teeth) {
   return angles;
 }
 
+/// Who is held and drives, how fast, and the power at this torque of the sun, N m.
+void power_flow(Draw& draw, const Teeth& teeth, double sun_torque, GearSet& set) {
+  auto& draft = set.draft;
+  const std::vector<std::string> members = {"sun", "carrier", "ring"};
+  const auto held = draw.one_of<std::string>({"ring", "ring", "ring", "sun", "carrier", "none"});
+  std::vector<std::string> turning;
+  for (const auto& member : members)
+    if (member != held) turning.push_back(member);
+  const auto drives = held == "ring" && draw.chance(0.6) ? std::string("sun") : draw.one_of(turning);
+  if (held != "ring" || draw.chance(0.2)) draft.set("stage.held", held);
+  if (drives != "sun" || draw.chance(0.2)) draft.set("stage.drives", drives);
+  const auto speed = [&] { return rounded(draw.log_uniform(10, 6000) * (draw.chance(0.2) ? -1 : 1), 3); };
+  const double driving = speed();
+  draft.set("stage." + drives + "_speed_rpm", driving);
+  for (const auto& member : members) set.chances["stage." + member + "_speed_rpm"] = 0;
+  if (held == "none") {
+    std::erase(turning, drives);
+    draft.set("stage." + draw.one_of(turning) + "_speed_rpm", speed());
+  }
+  const double ring_share = static_cast<double>(teeth.ring) / teeth.sun;
+  const double of_sun = drives == "sun" ? 1 : drives == "ring" ? ring_share : 1 + ring_share;
+  draft.set("stage.power_kW", rounded(sun_torque * of_sun * std::abs(driving) * std::numbers::pi / 30 / 1e3));
+}
+
 /// What the supports of the ring need to fit it.
 void ring_values(Draw& draw, const Rack& rack, double root_mm, Section section, const Teeth& teeth, GearSet& set) {
   const double rim = rounded(rack.module_mm * draw.log_uniform(0.8, 8)), outside = root_mm + 2 * rim;
@@ -150,10 +174,7 @@ GearSet planetary_set(Draw& draw, Section section) {
   draft.set("ring.tip_diameter_mm", rounded(tip, 6));
 
   const double force = rack.mesh_force(draw), sun_base = module * teeth.sun / 2 * std::cos(angle) * 1e-3;
-  const double speed = rounded(draw.log_uniform(10, 6000), 3);
-  draft.set("stage.power_kW", rounded(force * sun_base * teeth.planets * speed * std::numbers::pi / 30 / 1e3));
-  draft.set(draw.chance(0.7) ? "stage.sun_speed_rpm" : "stage.carrier_speed_rpm", speed);
-  set.chances["stage.sun_speed_rpm"] = set.chances["stage.carrier_speed_rpm"] = 0;
+  power_flow(draw, teeth, force * sun_base * teeth.planets, set);
   set.scales = {rack.module_mm, force / rack.mesh_stiffness() * 1e6, rack.mesh_stiffness(),
                 rack.mesh_stiffness() * sun_base * sun_base};
 
@@ -176,6 +197,11 @@ GearSet planetary_set(Draw& draw, Section section) {
   set.chances["carrier"] = 1;
   set.chances["errors"] = 0.8;
   set.chances["mesh.sun_planet"] = set.chances["mesh.ring_planet"] = 0.15;
+  // Torsional supports fit who is held; drawn ones would often contradict it.
+  for (const auto* body : {"sun", "carrier", "ring"}) {
+    const auto held = draft.text_of("stage.held");
+    if ((held.empty() ? "ring" : held) != body) set.chances[std::string("supports.") + body + "_torsional_N_per_m"] = 0;
+  }
   const auto coupling = draw.one_of<std::string>({"automatic", "none", "static", "elastic"});
   v["dynamics.rim_coupling"] = coupling;
   set.chances["dynamics.rim_coupling"] = 0.15;

@@ -188,6 +188,7 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"stage.centre_distance_mm", "follows from the profile shifts"},
       {"stage.sun_torque_Nm", "the power is drawn"},
       {"stage.carrier_torque_Nm", "the power is drawn"},
+      {"stage.ring_torque_Nm", "the power is drawn"},
       {"*.profile_shift_from", "the profile shift is drawn itself"},
       {"*.normal_backlash_um", "of profile_shift_from"},
       {"*.span_mm", "of profile_shift_from"},

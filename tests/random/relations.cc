@@ -177,6 +177,39 @@ Relation mirror() {
           same};
 }
 
+/// The mirror image of a scene: every direction reversed, planets counted the other way round.
+SceneDraft in_a_mirror(const RandomScene& scene) {
+  auto mirrored = scene.draft;
+  for (const auto& t : app::schema(scene.kind))
+    for (const auto& p : t.parameters)
+      if (p.name.ends_with("_phase_deg") || p.name == "helix_angle_deg" || p.name == "pin_angles_deg" ||
+          (p.name.starts_with("first_") && p.name.ends_with("_angle_deg")) ||
+          (t.path == "stage" && p.name.ends_with("_speed_rpm")))
+        mirrored.scale(p.key(), -1);
+  const auto planets = static_cast<std::size_t>(mirrored.number("stage.planets"));
+  for (const auto* list :
+       {"errors.planet_eccentricity_um", "errors.planet_eccentricity_phase_deg", "errors.planet_pin_position_error_um",
+        "errors.planet_pin_position_error_phase_deg", "stage.planet_angles_deg"})
+    if (const auto* value = mirrored.find(list)) {
+      auto values = std::get<std::vector<double>>(*value);
+      if (values.size() == planets) std::reverse(values.begin() + 1, values.end());
+      if (std::string(list) == "stage.planet_angles_deg")
+        for (std::size_t n = 1; n < values.size(); ++n) values[n] = 360 - values[n];
+      mirrored.set(list, values);
+    }
+  return mirrored;
+}
+
+/// Driven the other way, the mirror image does the same.
+Relation turned_round() {
+  return {"mirror image driven the other way", Agreement::rounding,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            if (scene.draft.text_of("stage.kind") != "planetary") return std::nullopt;
+            return RunPair{cheap(scene.draft, scene), cheap(in_a_mirror(scene), scene)};
+          },
+          same};
+}
+
 Relation reuse() {
   return {"reused", Agreement::identical,
           [](const RandomScene& scene) -> std::optional<RunPair> {
@@ -280,9 +313,9 @@ double ComparedResult::effectivity() const {
 }
 
 const std::vector<Relation>& relations() {
-  static const std::vector<Relation> list = {accuracy(), chosen_model(),  models(),        size(),
-                                             material(), pins_by_a_gap(), pins_by_teeth(), listed_pins(),
-                                             mirror(),   more_planets(),  reuse(),         threads()};
+  static const std::vector<Relation> list = {accuracy(),      chosen_model(),  models(),      size(),   material(),
+                                             pins_by_a_gap(), pins_by_teeth(), listed_pins(), mirror(), turned_round(),
+                                             more_planets(),  reuse(),         threads()};
   return list;
 }
 

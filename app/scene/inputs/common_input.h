@@ -8,6 +8,7 @@
 #include "dynamics/system/mesh_excitation.h"
 #include "dynamics/time_integration/integrate.h"
 #include "fem/choice/wanted_model.h"
+#include "geometry/power_flow.h"
 
 namespace annulus::app {
 
@@ -26,9 +27,12 @@ struct StageInput {
   int planets = 0;
   std::vector<double> planet_angles;  ///< rad; empty: equally spaced
   double module = 0, pressure_angle = 0, helix_angle = 0, face_width = 0, centre_distance = 0;
-  std::optional<double> power, sun_torque, carrier_torque;  ///< W, N m; exactly one is given
-  std::optional<double> sun_speed, carrier_speed;           ///< rad/s; exactly one is given
-  double pinion_torque = 0, pinion_speed = 0;               ///< helical_pair
+  std::optional<geometry::StageMember> held = geometry::StageMember::ring;  ///< absent: none, a differential
+  geometry::StageMember drives = geometry::StageMember::sun;
+  std::optional<double> power, sun_torque, carrier_torque, ring_torque;  ///< W, N m; exactly one is given
+  /// rad/s, counter-clockwise; one is given, two of a differential.
+  std::optional<double> sun_speed, carrier_speed, ring_speed;
+  double pinion_torque = 0, pinion_speed = 0;  ///< helical_pair
 };
 
 struct MaterialInput {

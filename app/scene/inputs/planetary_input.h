@@ -38,7 +38,8 @@ struct RingInput : GearInput {
 /// N/m; `rigid` drops the DOF. Torsional values are in the coordinate u = base radius x angle.
 struct SupportInput {
   double sun = rigid, ring = rigid, carrier = rigid, planet = rigid;
-  double sun_torsional = 0, ring_torsional = rigid, carrier_torsional = 0;
+  /// Absent: rigid of the member that is held, none of the others (torsional_support).
+  std::optional<double> sun_torsional, ring_torsional, carrier_torsional;
 };
 
 enum class ToleranceLaw { normal, uniform };

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "app/model/stiff_supports.h"
 #include "app/plan/gear_geometry.h"
 #include "app/results/result_folder.h"
 #include "app/scene/key_checks.h"
@@ -15,6 +16,7 @@
 #include "app/scene/scene_schema.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_scene.h"
+#include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "app/systems/shared/profile_shifts.h"
 #include "core/errors.h"
@@ -33,6 +35,7 @@ class PlanetaryChecker : KeyChecks {
     errors();
     profile_shifts();
     ring_names();
+    held_supports();
     // Problems of rings with the same name could not be assigned, so only the first one is checked.
     std::set<std::string> seen;
     for (auto& ring : scene_.rings) {
@@ -44,6 +47,7 @@ class PlanetaryChecker : KeyChecks {
     plane_models();
     rim_coupling();
     tolerances();
+    check_power_flow(scene_, problems_);
   }
 
  private:
@@ -120,6 +124,24 @@ class PlanetaryChecker : KeyChecks {
     if (scene_.ring_planet.stiffness != StiffnessShape::computed) return;
     for (const auto& ring : scene_.rings)
       refuse(fmt::format("ring-planet mesh of '{}'", ring.name), solid_reason(scene_, ring));
+  }
+
+  /// A member that is held needs a torsional support, one that turns may not be held rigidly.
+  void held_supports() {
+    for (const auto member : stage_members) {
+      const auto key = fmt::format("supports.{}_torsional_N_per_m", to_string(member));
+      const bool held = scene_.stage.held == member;
+      if (!given(key) || !usable(key) || !usable("stage.held")) continue;
+      const double stiffness = torsional_support(scene_, member);
+      if (held && stiffness == 0)
+        problem(key, fmt::format("leaves the {} free, but stage.held says that it is held; use a stiffness above 0 or "
+                                 "\"rigid\"",
+                                 to_string(member)));
+      if (!held && stiffness == rigid)
+        problem(key, fmt::format("holds the {} rigidly, but stage.held = \"{}\" lets it turn; use a finite stiffness "
+                                 "or leave it out",
+                                 to_string(member), scene_.stage.held ? to_string(*scene_.stage.held) : "none"));
+    }
   }
 
   void ring_names() {

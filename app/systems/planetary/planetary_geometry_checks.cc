@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
+#include "app/model/stiff_supports.h"
 #include "app/scene/model_limits.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/ring_structures.h"
@@ -48,9 +50,11 @@ void check_ring_supports(const Scene& scene, const GearGeometry& geometry, std::
 /// Forces that add up to one per planet, in directions fixed to the planets, have the smallest resultant when the
 /// outermost two share them.
 double least_bearing_load(const geometry::PlanetarySet& set) {
-  double widest_gap = 2 * std::numbers::pi - set.planet_angle(set.planets() - 1);
-  for (int n = 1; n < set.planets(); ++n)
-    widest_gap = std::max(widest_gap, set.planet_angle(n) - set.planet_angle(n - 1));
+  std::vector<double> angles;
+  for (int n = 0; n < set.planets(); ++n) angles.push_back(set.planet_angle(n));
+  std::sort(angles.begin(), angles.end());
+  double widest_gap = 2 * std::numbers::pi - angles.back();
+  for (std::size_t n = 1; n < angles.size(); ++n) widest_gap = std::max(widest_gap, angles[n] - angles[n - 1]);
   return set.planets() * std::max(0.0, -std::cos(widest_gap / 2));
 }
 
@@ -63,9 +67,14 @@ void check_planetary_bearings(const Scene& scene, const GearGeometry& geometry) 
   check_bearing(scene, "supports.ring_N_per_m", s.ring, across);
   check_bearing(scene, "supports.carrier_N_per_m", s.carrier, 2 * across);
   const double all = scene.stage.planets * mesh;
-  if (s.ring_torsional > 0)
-    check_torsional_support("supports.ring_torsional_N_per_m", s.ring_torsional, all,
-                            geometry.rings.front().set.ring().base_radius());
+  const auto& set = geometry.rings.front().set;
+  using geometry::StageMember;
+  for (const auto& [member, key, force, radius] :
+       {std::tuple{StageMember::sun, "supports.sun_torsional_N_per_m", all, set.sun().base_radius()},
+        {StageMember::carrier, "supports.carrier_torsional_N_per_m", 2 * all, set.centre_distance()},
+        {StageMember::ring, "supports.ring_torsional_N_per_m", all, set.ring().base_radius()}})
+    if (const double support = torsional_support(scene, member); support > 0)
+      check_torsional_support(key, support, force, radius);
 }
 
 }  // namespace
@@ -78,9 +87,10 @@ void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry) 
   for (std::size_t i = 0; ring && i < scene.rings.size(); ++i)
     check_ring_rim(scene, scene.rings[i], geometry.rings.at(i));
 
-  const char* load = scene.stage.power        ? "stage.power_kW"
-                     : scene.stage.sun_torque ? "stage.sun_torque_Nm"
-                                              : "stage.carrier_torque_Nm";
+  const char* load = scene.stage.power            ? "stage.power_kW"
+                     : scene.stage.sun_torque     ? "stage.sun_torque_Nm"
+                     : scene.stage.carrier_torque ? "stage.carrier_torque_Nm"
+                                                  : "stage.ring_torque_Nm";
   const double mesh_force = geometry.operating_point.mean_mesh_force;
   if (scene.dynamics) {
     check_deviations(scene);

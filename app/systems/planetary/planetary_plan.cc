@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/model/stiff_supports.h"
+#include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "core/units.h"
 
@@ -39,14 +40,17 @@ std::vector<Quantity> stage_quantities(const Scene& scene, const GearGeometry& g
   const auto& point = geometry.operating_point;
   const auto& set = geometry.rings.front().set;
   std::vector<Quantity> list = {
-      quantity("sun_speed_rpm", point.sun_speed, "speed of the sun"),
-      quantity("carrier_speed_rpm", point.carrier_speed, "speed of the carrier, ring fixed"),
-      quantity("sun_torque_N_m", point.sun_torque, "torque of the sun, power over speed"),
-      quantity("carrier_torque_N_m", point.carrier_torque, "torque of the carrier"),
       quantity("mesh_frequency_Hz", point.mesh_frequency, "mesh frequency"),
       quantity("mean_mesh_force_kN", point.mean_mesh_force,
                fmt::format("mean force of each of the {} meshes, along the line of action", 2 * scene.stage.planets)),
   };
+  for (const auto member : stage_members) {
+    const auto name = std::string(to_string(member));
+    const auto role = role_of(scene, point, member);
+    list.push_back(
+        quantity(name + "_speed_rpm", point.flow.speed[member], fmt::format("speed of the {}, {}", name, role)));
+    list.push_back(quantity(name + "_torque_N_m", point.flow.torque[member], fmt::format("torque on the {}", name)));
+  }
   add_gear_quantities(list, "sun", set.sun());
   add_gear_quantities(list, "planet", set.planet());
   add_mesh_quantities(list, "sun_mesh_", geometry.sun_mesh());
@@ -66,12 +70,17 @@ std::vector<Quantity> ring_quantities(const RingGeometry& ring) {
 }
 
 std::vector<DofPlan> dofs(const Scene& scene) {
-  const SupportInput& given = scene.supports;
+  using geometry::StageMember;
+  SupportInput given = scene.supports;
+  given.sun_torsional = torsional_support(scene, StageMember::sun);
+  given.ring_torsional = torsional_support(scene, StageMember::ring);
+  given.carrier_torsional = torsional_support(scene, StageMember::carrier);
   const auto effective =
       effective_supports(scene, rough_stiffness(scene, scene.sun_planet), rough_stiffness(scene, scene.ring_planet));
   std::vector<DofPlan> list;
-  const auto add = [&](const std::string& dof, const char* support, double SupportInput::*stiffness) {
-    list.push_back(supported_dof(dof, support, given.*stiffness, effective.*stiffness));
+  const auto add = [&](const std::string& dof, const char* support, auto SupportInput::*stiffness) {
+    const std::optional<double> before = given.*stiffness, after = effective.*stiffness;
+    list.push_back(supported_dof(dof, support, *before, *after));
   };
   add("sun x, y", "support", &SupportInput::sun);
   add("sun u", "torsional support", &SupportInput::sun_torsional);
@@ -117,6 +126,10 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
     list.emplace_back("No [dynamics]: meshes, transmission error and stiffness only.");
     return list;
   }
+  if (geometry.operating_point.mirrored)
+    list.emplace_back(
+        "The torque of the sun is clockwise. The stage is computed as its mirror image, in which it is "
+        "counter-clockwise: directions and drawings of the results are those of the mirror image.");
   if (scene.stage.helix_angle != 0)
     list.emplace_back(
         "The lumped model is plane. It contains the transverse forces of helical teeth; their axial forces and tilting "
@@ -127,11 +140,14 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
 std::vector<DerivedInput> derived_inputs(const GearGeometry& geometry) {
   const auto& point = geometry.operating_point;
   std::vector<DerivedInput> list = {
-      {"stage.power_kW", "", point.power / units::kW, "torque × speed"},
-      {"stage.sun_torque_Nm", "", point.sun_torque, "power / sun speed, or carrier torque / (1 + z_r / z_s)"},
-      {"stage.carrier_torque_Nm", "", point.carrier_torque, "sun torque × (1 + z_r / z_s)"},
-      {"stage.carrier_speed_rpm", "", point.carrier_speed / units::rpm, "sun speed / (1 + z_r / z_s)"},
-      {"stage.sun_speed_rpm", "", point.sun_speed / units::rpm, "carrier speed × (1 + z_r / z_s)"}};
+      {"stage.power_kW", "", point.power / units::kW, "torque × speed of the member that drives"}};
+  for (const auto member : stage_members) {
+    const auto name = std::string(to_string(member));
+    list.push_back({"stage." + name + "_torque_Nm", "", std::abs(point.flow.torque[member]),
+                    "torques of sun, ring and carrier are as z_s : z_r : z_s + z_r"});
+    list.push_back({"stage." + name + "_speed_rpm", "", point.flow.speed[member] / units::rpm,
+                    "z_s × sun speed + z_r × ring speed = (z_s + z_r) × carrier speed"});
+  }
   add_diameters(list, "sun", geometry.rings.front().set.sun());
   add_diameters(list, "planet", geometry.rings.front().set.planet());
   for (const auto& [name, set, outside_radius] : geometry.rings) {

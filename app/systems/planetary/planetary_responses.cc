@@ -38,8 +38,9 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
   const auto& asked = scene.dynamics->mesh_cycles;
   const auto options = simulation_options(scene, stage);
   // Mesh cycles after which the response repeats, at most as many as are integrated.
-  const int period =
-      std::min(std::lcm(stage.error_period(), ring.positions), std::max(options.max_window_cycles, 4000));
+  const int most_cycles = std::max(options.max_window_cycles, 4000);
+  const int own = stage.error_period();
+  const int period = own < most_cycles ? std::min(std::lcm(own, ring.positions), most_cycles) : most_cycles;
   const auto system = assemble(stage);
   const bool sudden = tables > 0 || std::isfinite(system.next_jump(0));
   const auto stiffness = sudden ? dynamics::StiffnessCourse::sudden : dynamics::StiffnessCourse::smooth;

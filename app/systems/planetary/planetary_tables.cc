@@ -8,8 +8,56 @@ namespace annulus::app {
 
 namespace {
 
-/// A turn in two years; powers divided by less are no torques.
-constexpr double slowest_rpm = 1e-6;
+using geometry::StageMember;
+
+/// Which member is held, which one drives, how fast and how hard.
+void declare_power_flow(Declarations<StageInput>& stage) {
+  const std::vector<Choice<StageMember>> members = {
+      {"sun", StageMember::sun}, {"carrier", StageMember::carrier}, {"ring", StageMember::ring}};
+  std::vector<Choice<std::optional<StageMember>>> held = {{"none", std::nullopt}};
+  for (const auto& member : members) held.push_back({member.name, member.value});
+  stage
+      .choice("held", &StageInput::held, held,
+              "The member that does not turn. none: a differential, whose speeds are two keys. All three members then "
+              "turn.")
+      .fallback("ring", "the usual case");
+  stage
+      .choice("drives", &StageInput::drives, members,
+              "The member whose torque acts in its direction of rotation. Where a load drives back, as in braking, it "
+              "is the member on the side of the load.")
+      .fallback("sun", "a reducer");
+  stage.key("power_kW", &StageInput::power, "Power of the member that drives.")
+      .above(0, 1e6)
+      .one_of({"sun_torque_Nm", "carrier_torque_Nm", "ring_torque_Nm"})
+      .absent("follows from the torque and the speed");
+  constexpr double largest_torque = 1e9;
+  const char* from_power = "follows from the power and the speed";
+  stage
+      .key("sun_torque_Nm", &StageInput::sun_torque,
+           "Torque of the sun, instead of the power. It stays the same where a sweep changes the speed.")
+      .above(0, largest_torque)
+      .absent(from_power);
+  stage.key("carrier_torque_Nm", &StageInput::carrier_torque, "Torque of the carrier, instead of the power.")
+      .above(0, largest_torque)
+      .absent(from_power);
+  stage.key("ring_torque_Nm", &StageInput::ring_torque, "Torque of the ring, instead of the power.")
+      .above(0, largest_torque)
+      .absent(from_power);
+  const auto speed = [&](const char* name, std::optional<double> StageInput::*member, const char* meaning,
+                         const char* held_member, const char* why) {
+    stage.key(name, member, meaning)
+        .from(-1e6, 1e6)
+        .refused_if(is("held", {held_member}), why)
+        .absent("follows from the other speeds");
+  };
+  speed("sun_speed_rpm", &StageInput::sun_speed,
+        "Speed of the sun; negative: clockwise. One speed is given, or two of a differential.", "sun",
+        "the sun is held");
+  speed("carrier_speed_rpm", &StageInput::carrier_speed, "Speed of the carrier; negative: clockwise.", "carrier",
+        "the carrier is held");
+  speed("ring_speed_rpm", &StageInput::ring_speed, "Speed of the ring; negative: clockwise.", "ring",
+        "the ring is held");
+}
 
 Table planetary_stage_table() {
   Declarations stage("stage", "", &Scene::stage);
@@ -21,26 +69,7 @@ Table planetary_stage_table() {
       .from(0, 360)
       .absent("equally spaced");
   declare_centre_distance(stage).required();
-  stage.key("power_kW", &StageInput::power, "Transmitted power; the sun drives, the carrier is driven.")
-      .above(0, 1e6)
-      .one_of({"sun_torque_Nm", "carrier_torque_Nm"})
-      .absent("follows from the torque and the speed");
-  constexpr double largest_torque = 1e9;
-  stage
-      .key("sun_torque_Nm", &StageInput::sun_torque,
-           "Torque of the sun, instead of the power. It stays the same where a sweep changes the speed.")
-      .above(0, largest_torque)
-      .absent("follows from the power and the speed");
-  stage.key("carrier_torque_Nm", &StageInput::carrier_torque, "Torque of the carrier, instead of the power.")
-      .above(0, largest_torque)
-      .absent("follows from the power and the speed");
-  stage.key("sun_speed_rpm", &StageInput::sun_speed, "Speed of the sun.")
-      .from(slowest_rpm, 1e6)
-      .absent("follows from carrier_speed_rpm");
-  stage.key("carrier_speed_rpm", &StageInput::carrier_speed, "Speed of the carrier.")
-      .from(slowest_rpm, 1e6)
-      .instead_of({"sun_speed_rpm"})
-      .absent("follows from sun_speed_rpm");
+  declare_power_flow(stage);
   return stage.done();
 }
 
@@ -139,12 +168,19 @@ Table supports_table() {
   bearing("carrier_N_per_m", &SupportInput::carrier, "Support of the carrier's axis in any direction.");
   bearing("planet_N_per_m", &SupportInput::planet, "Bearing of each planet on the carrier, radial and tangential.")
       .above(0, 1e15);
-  bearing("ring_torsional_N_per_m", &SupportInput::ring_torsional,
-          "Torsional support of the ring, in u = base radius × angle.");
-  support("sun_torsional_N_per_m", &SupportInput::sun_torsional, 0, "free: the sun transmits the power",
-          "Torsional support of the sun, in u = base radius × angle.");
-  support("carrier_torsional_N_per_m", &SupportInput::carrier_torsional, 0, "free: the carrier transmits the power",
-          "Torsional support of the carrier, in u = centre distance × angle.");
+  const auto torsional = [&](const char* name, std::optional<double> SupportInput::*member, const char* meaning) {
+    supports.key(name, member, meaning)
+        .from(0, 1e15)
+        .infinite()
+        .word("rigid", rigid)
+        .absent("rigid where this member is held, otherwise none: it turns");
+  };
+  torsional("ring_torsional_N_per_m", &SupportInput::ring_torsional,
+            "Torsional support of the ring, in u = base radius × angle.");
+  torsional("sun_torsional_N_per_m", &SupportInput::sun_torsional,
+            "Torsional support of the sun, in u = base radius × angle.");
+  torsional("carrier_torsional_N_per_m", &SupportInput::carrier_torsional,
+            "Torsional support of the carrier, in u = centre distance × angle.");
   return supports.done();
 }
 

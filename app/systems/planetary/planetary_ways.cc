@@ -17,9 +17,12 @@ const std::vector<RigidChange<Stage>>& rigid_changes() {
   static const std::vector<RigidChange<Stage>> list = {
       {"sun held in place", [](Stage& s) { return std::vector{&s.sun.support}; }},
       {"ring held in place", [](Stage& s) { return std::vector{&s.ring.support}; }},
-      {"ring held against rotation",
+      {"held rigidly against rotation",
        [](Stage& s) {
-         return s.ring.torsional_support > 0 ? std::vector{&s.ring.torsional_support} : std::vector<double*>{};
+         using geometry::StageMember;
+         if (!s.held) return std::vector<double*>{};
+         auto& body = *s.held == StageMember::sun ? s.sun : *s.held == StageMember::ring ? s.ring : s.carrier;
+         return body.torsional_support > 0 ? std::vector{&body.torsional_support} : std::vector<double*>{};
        }},
       {"carrier held in place", [](Stage& s) { return std::vector{&s.carrier.support}; }},
       {"planet bearings rigid", [](Stage& s) {

@@ -49,7 +49,7 @@ Json motion_json(const StageMotion& m) {
           {"sun_support_max_N", json_number(m.sun_support_max)},
           {"ring_support_max_N", json_number(m.ring_support_max)},
           {"carrier_support_max_N", json_number(m.carrier_support_max)},
-          {"ring_torque_mean_N_m", json_number(m.ring_torque_mean)},
+          {"held_torque_mean_N_m", json_number(m.held_torque_mean)},
           {"sun_orbit_extent_m", json_number(m.sun_orbit_extent)},
           {"sun_orbit_largest_m", json_number(m.sun_orbit_largest)},
           {"section", m.section},

@@ -32,8 +32,8 @@ constexpr int coupling_level = 1;  // the far field converges fast; its error is
 /// Modes up to this multiple of the mesh frequency: the mesh excites little beyond.
 constexpr double highest_mesh_order = 10;
 
-double highest_frequency(const GearGeometry& geometry, const RingInput& ring) {
-  return highest_mesh_order * ring.teeth * geometry.operating_point.carrier_speed / (2 * std::numbers::pi);
+double highest_frequency(const GearGeometry& geometry) {
+  return highest_mesh_order * geometry.operating_point.mesh_frequency;
 }
 
 /// Mesh and planet bearing in series; 1/K_path of the stage without its sun mesh, hence rather too small.
@@ -57,8 +57,7 @@ std::vector<double> places_on_ring(const GearGeometry& geometry, const RingInput
 std::string coupling_id(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                         const RingInput& ring) {
   return identity_of(model.id(), coupling_level, model.coupling_degree, places_on_ring(geometry, ring),
-                     geometry.operating_point.mean_mesh_force, highest_frequency(geometry, ring),
-                     scene.material.density);
+                     geometry.operating_point.mean_mesh_force, highest_frequency(geometry), scene.material.density);
 }
 
 const RingInput& ring_of(const Scene& scene, const MeshModel& model) {
@@ -174,7 +173,7 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
     settings.degree = model.coupling_degree;
     settings.threads = options.threads;
     settings.store = options.store;
-    settings.modes.highest_frequency = highest_frequency(geometry, ring);
+    settings.modes.highest_frequency = highest_frequency(geometry);
     auto solved = fem::solve_ring_coupling(*model.problem, places_on_ring(geometry, ring),
                                            geometry.operating_point.mean_mesh_force, settings);
     SolvedCoupling result;

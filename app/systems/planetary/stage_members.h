@@ -15,8 +15,8 @@ ANNULUS_MEMBERS(dynamics::PlanetBody, mass, inertia, radius, bearing_radial, bea
 ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_angles, planet_errors, sun_working_angle,
                 ring_working_angle, sun_teeth, planet_teeth, ring_teeth, sun_mesh, ring_mesh, sun_phase_lag,
                 ring_phase_lag, ring_tooth_offset, ring_coupling, sun_half_backlash, ring_half_backlash,
-                mesh_damping_ratio, support_damping_ratio, damping_without_contact, carrier_speed, sun_torque,
-                rotating_frame);
+                mesh_damping_ratio, support_damping_ratio, damping_without_contact, carrier_speed, ring_speed,
+                sun_torque, held, rotating_frame);
 
 ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
 ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_factor, mean_force, contact_loss,
@@ -45,7 +45,7 @@ ANNULUS_MEMBERS(app::StageModes::Mode, frequency, frequency_error, error_parts, 
                 strain, kinetic);
 ANNULUS_MEMBERS(app::StageModes, groups, bodies, list, shapes, campbell, critical_speeds);
 ANNULUS_MEMBERS(app::StageMotion, pin_force_max, pin_force_mean, sun_support, ring_support, carrier_support,
-                ring_torque, orbit_extent, orbit_largest, section, section_period, section_clusters, bearing_forces,
+                held_torque, orbit_extent, orbit_largest, section, section_period, section_clusters, bearing_forces,
                 sun_orbit, poincare);
 ANNULUS_MEMBERS(app::StageResponse, figures, errors, modes, motion, load_sharing, force_factors, waveform,
                 sharing_waveform, spectrum, time_series, reused);

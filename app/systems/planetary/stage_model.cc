@@ -30,14 +30,12 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   dynamics::set_kinematics(stage, set);
   stage.sun.mass = *scene.sun.mass;
   stage.sun.inertia = *scene.sun.inertia;
-  stage.sun.torsional_support = scene.supports.sun_torsional;
   stage.sun.errors = deviations_of(e.sun);
   stage.ring.mass = *input.mass;
   stage.ring.inertia = *input.inertia;
   stage.ring.errors = deviations_of(e.ring);
   stage.carrier.mass = *scene.carrier.mass;
   stage.carrier.inertia = *scene.carrier.inertia;
-  stage.carrier.torsional_support = scene.supports.carrier_torsional;
   stage.carrier.errors = deviations_of(e.carrier);
   stage.planet.mass = *scene.planet.mass;
   stage.planet.inertia = *scene.planet.inertia;
@@ -54,7 +52,9 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
       effective_supports(scene, dynamics::mean_stiffness(stage.sun_mesh), dynamics::mean_stiffness(stage.ring_mesh));
   stage.sun.support = supports.sun;
   stage.ring.support = supports.ring;
-  stage.ring.torsional_support = supports.ring_torsional;
+  stage.sun.torsional_support = *supports.sun_torsional;
+  stage.ring.torsional_support = *supports.ring_torsional;
+  stage.carrier.torsional_support = *supports.carrier_torsional;
   stage.carrier.support = supports.carrier;
   stage.planet.bearing_radial = stage.planet.bearing_tangential = supports.planet;
   if (ring_mesh.coupling)
@@ -64,7 +64,9 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
-  stage.carrier_speed = point.carrier_speed;
+  stage.held = scene.stage.held;
+  stage.carrier_speed = point.computed_speed(geometry::StageMember::carrier);
+  stage.ring_speed = point.computed_speed(geometry::StageMember::ring);
   stage.sun_torque = point.sun_torque;
   return stage;
 }

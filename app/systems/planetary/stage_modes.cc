@@ -26,24 +26,35 @@ std::vector<double> column(const Eigen::MatrixXd& shares, std::size_t mode) {
 }
 
 void add_campbell(StageModes& result, const dynamics::PlanetaryStage& stage) {
+  const double rolling = std::abs(stage.carrier_speed - stage.ring_speed);
   std::vector<double> speeds;
-  for (int i = 0; i <= campbell_steps; ++i) speeds.push_back(stage.carrier_speed * campbell_reach * i / campbell_steps);
+  for (int i = 0; i <= campbell_steps; ++i) speeds.push_back(rolling * campbell_reach * i / campbell_steps);
   const auto diagram = dynamics::campbell(stage, speeds, {.orders = campbell_orders});
-  const double sun_per_carrier = 1 + static_cast<double>(stage.ring_teeth) / stage.sun_teeth;
-  result.campbell.columns = {"sun_speed_rpm", "carrier_speed_rpm", "mesh_frequency_Hz"};
+  using geometry::StageMember;
+  const auto members =
+      geometry::member_speeds(stage.sun_teeth, stage.ring_teeth, {StageMember::carrier, stage.carrier_speed},
+                              {StageMember::ring, stage.ring_speed});
+  // Magnitudes of the speeds of sun, carrier and ring, r/min, where the carrier turns at `speed` against the ring.
+  const auto row_of = [&](double speed) {
+    std::vector<double> row;
+    for (const auto member : {StageMember::sun, StageMember::carrier, StageMember::ring})
+      row.push_back(std::abs(members[member]) * speed / rolling / units::rpm);
+    return row;
+  };
+  result.campbell.columns = {"sun_speed_rpm", "carrier_speed_rpm", "ring_speed_rpm", "mesh_frequency_Hz"};
   for (std::size_t i = 0; i < diagram.curves.size(); ++i)
     result.campbell.columns.push_back(fmt::format("mode{}_Hz", i + 1));
   for (std::size_t s = 0; s < speeds.size(); ++s) {
-    auto& row = result.campbell.rows.emplace_back(
-        std::vector{speeds[s] * sun_per_carrier / units::rpm, speeds[s] / units::rpm, diagram.mesh_frequency[s]});
+    auto& row = result.campbell.rows.emplace_back(row_of(speeds[s]));
+    row.push_back(diagram.mesh_frequency[s]);
     for (const auto& curve : diagram.curves) row.push_back(curve.frequency[s]);
   }
-  result.critical_speeds.columns = {"sun_speed_rpm", "carrier_speed_rpm", "frequency_Hz", "mesh_order",
-                                    "mode",          "participation"};
+  result.critical_speeds.columns = {
+      "sun_speed_rpm", "carrier_speed_rpm", "ring_speed_rpm", "frequency_Hz", "mesh_order", "mode", "participation"};
   for (const auto& c : diagram.crossings) {
-    result.critical_speeds.rows.push_back({c.carrier_speed * sun_per_carrier / units::rpm, c.carrier_speed / units::rpm,
-                                           c.frequency, static_cast<double>(c.order), static_cast<double>(c.curve + 1),
-                                           c.participation});
+    auto& row = result.critical_speeds.rows.emplace_back(row_of(c.speed));
+    row.insert(row.end(),
+               {c.frequency, static_cast<double>(c.order), static_cast<double>(c.curve + 1), c.participation});
   }
 }
 
@@ -88,7 +99,7 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnes
     (void)shape.cwiseAbs().maxCoeff(&top);
     for (const double value : shape) row.push_back(value / shape[top]);
   }
-  if (stage.carrier_speed > 0) add_campbell(result, stage);
+  if (stage.mesh_frequency() > 0) add_campbell(result, stage);
   return result;
 }
 

@@ -12,7 +12,8 @@ void add_column(Csv& csv, const std::string& name, const Eigen::VectorXd& cycles
   for (std::size_t c = 0; c < csv.rows.size(); ++c) csv.rows[c].push_back(cycles[static_cast<Eigen::Index>(c)]);
 }
 
-void add_bearings(StageMotion& motion, const dynamics::StageMotion& found, int cycles) {
+void add_bearings(StageMotion& motion, const dynamics::StageMotion& found,
+                  const std::optional<geometry::StageMember>& held, int cycles) {
   auto& csv = motion.bearing_forces;
   csv.columns = {"mesh_cycle"};
   for (int c = 0; c < cycles; ++c) csv.rows.emplace_back(1, c);
@@ -36,9 +37,14 @@ void add_bearings(StageMotion& motion, const dynamics::StageMotion& found, int c
   };
   motion.sun_support_max = support("sun", found.sun_support);
   motion.ring_support_max = support("ring", found.ring_support);
-  add_column(csv, "ring_torque_mean_N_m", dynamics::over_cycles(found.ring_support.torque, cycles).mean);
-  motion.ring_torque_mean = found.ring_support.torque.mean();
   motion.carrier_support_max = support("carrier", found.carrier_support);
+  if (!held) return;
+  using geometry::StageMember;
+  const auto& reaction = *held == StageMember::sun    ? found.sun_support
+                         : *held == StageMember::ring ? found.ring_support
+                                                      : found.carrier_support;
+  add_column(csv, "held_torque_mean_N_m", dynamics::over_cycles(reaction.torque, cycles).mean);
+  motion.held_torque_mean = reaction.torque.mean();
 }
 
 }  // namespace
@@ -48,7 +54,7 @@ int written_stride(int window_cycles) { return window_cycles > dynamics::long_wi
 StageMotion tabulated_motion(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response) {
   const auto found = dynamics::stage_motion(stage, response);
   StageMotion motion;
-  add_bearings(motion, found, response.window_cycles);
+  add_bearings(motion, found, stage.held, response.window_cycles);
   const auto& path = found.sun_orbit;
   motion.sun_orbit_extent = path.extent;
   motion.sun_orbit_largest = path.largest;

@@ -15,7 +15,7 @@ struct StageMotion {
   std::vector<double> pin_force_max;              ///< N, largest resultant on the pin of each planet
   std::vector<double> pin_force_mean_tangential;  ///< N
   double sun_support_max = not_known, ring_support_max = not_known, carrier_support_max = not_known;  ///< N, resultant
-  double ring_torque_mean = not_known;   ///< N m, on the housing
+  double held_torque_mean = not_known;   ///< N m, on the housing
   double sun_orbit_extent = not_known;   ///< m, largest distance from the mean position, carrier frame
   double sun_orbit_largest = not_known;  ///< m, largest distance from the axis
   std::string section;                   ///< period_1, period_n, irregular, undecided

@@ -7,6 +7,7 @@
 
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
+#include "app/systems/planetary/power_flow.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/json.h"
 
@@ -115,7 +116,7 @@ Json ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
                             {"sun_support_max_N", json_number(m.sun_support_max)},
                             {"ring_support_max_N", json_number(m.ring_support_max)},
                             {"carrier_support_max_N", json_number(m.carrier_support_max)},
-                            {"ring_torque_mean_N_m", json_number(m.ring_torque_mean)}};
+                            {"held_torque_mean_N_m", json_number(m.held_torque_mean)}};
   json["sun_orbit"] = {{"extent_m", json_number(m.sun_orbit_extent)}, {"largest_m", json_number(m.sun_orbit_largest)}};
   json["poincare"] = {{"section", m.section},
                       {"period_cycles", m.section_period ? Json(*m.section_period) : Json(nullptr)},
@@ -139,6 +140,11 @@ Json stage_summary(const RunResult& result) {
                 {{"sun_torque_N_m", point.sun_torque},
                  {"mesh_frequency_Hz", point.mesh_frequency},
                  {"mean_mesh_force_N", point.mean_mesh_force}}}};
+  for (const auto member : stage_members)
+    json["operating_point"]["members"][to_string(member)] = {{"role", role_of(result.scene, point, member)},
+                                                             {"speed_rad_per_s", point.flow.speed[member]},
+                                                             {"torque_N_m", point.flow.torque[member]},
+                                                             {"power_W", point.flow.power(member)}};
   for (std::size_t i = 0; i < result.rings.size(); ++i) {
     auto& entry = json["rings"][result.rings[i].name] = ring_json(result.rings[i], result.sun_mesh);
     entry.update(variant_studies_json(result.studies, i));

@@ -155,7 +155,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
     element.name = name;
     element.b = std::move(b);
     element.excitation = excitation;
-    element.frequency = stage.mesh_frequency();
+    element.frequency = stage.mesh_rate();
     element.phase_offset = phase;
     element.damping =
         critical_share(stage.mesh_damping_ratio, mean_stiffness(excitation), equivalent_mass(stage, wheel));
@@ -192,11 +192,13 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   for (auto& element : ring_meshes) builder.add_mesh(std::move(element));
   if (stage.ring_coupling) builder.add_mesh_coupling(coupling_of(stage, ring_modes));
 
-  // The carrier's load from virtual work equals T_c / a with T_c = T_s (1 + z_r/z_s). It is balanced to rounding, so
-  // that a stage free to turn does not creep away.
+  // The loads from virtual work equal T_c / a with T_c = T_s (1 + z_r/z_s), and T_r / r_r. They are balanced to
+  // rounding, so that a stage free to turn does not creep away.
+  using geometry::StageMember;
   const double sun_force = stage.sun_torque / stage.sun.radius;
-  builder.add_load(sun.u, sun_force);
-  builder.add_load(carrier.u, -sun_force * (std::cos(as) + std::cos(ar)));
+  if (stage.held != StageMember::sun) builder.add_load(sun.u, sun_force);
+  if (stage.held != StageMember::carrier) builder.add_load(carrier.u, -sun_force * (std::cos(as) + std::cos(ar)));
+  if (stage.held != StageMember::ring) builder.add_load(ring.u, sun_force);
   return builder.build();
 }
 

@@ -62,13 +62,14 @@ std::vector<std::size_t> continuation(const RotatingModes& before, const Rotatin
 double participation(const PlanetaryStage& stage, const LumpedSystem& system, const RotatingModes& modes,
                      std::size_t position, int order) {
   const int planets = stage.planets();
+  const double sense = stage.mesh_rate() < 0 ? -1 : 1;  // of the mesh cycles
   double result = 0;
   for (const int first : {0, planets}) {
     Eigen::MatrixXd b(system.dofs(), planets);
     Eigen::VectorXcd pull(planets);  // of the order on each mesh
     for (int n = 0; n < planets; ++n) {
       b.col(n) = system.mesh_vector(first + n);
-      pull[n] = std::polar(1.0, 2 * std::numbers::pi * order * system.meshes()[first + n].phase_offset);
+      pull[n] = std::polar(1.0, 2 * std::numbers::pi * order * sense * system.meshes()[first + n].phase_offset);
     }
     // The combination of modes of one frequency that is excited.
     Eigen::VectorXcd shape = Eigen::VectorXcd::Zero(system.dofs());
@@ -86,7 +87,7 @@ double participation(const PlanetaryStage& stage, const LumpedSystem& system, co
 std::vector<RotatingMode> modes_at_speed(const PlanetaryStage& stage) {
   const auto turning = rotating_modes(stage, ModeDamping::damped);
   PlanetaryStage still = stage;
-  still.carrier_speed = 0;
+  still.carrier_speed = still.ring_speed = 0;
   const auto rest = rotating_modes(still, ModeDamping::undamped);
   std::vector<RotatingMode> modes;
   for (const std::size_t i : continuation(rest, turning, mac_matrix(rest, turning, assemble(still).mass())))
@@ -104,6 +105,9 @@ Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds
     if (!(speeds[i] > speeds[i - 1]))
       throw InputError(fmt::format("the speeds of a Campbell diagram must rise; {} rad/s follows {} rad/s", speeds[i],
                                    speeds[i - 1]));
+  const double rolling = stage.carrier_speed - stage.ring_speed;
+  const double carrier_share = rolling == 0 ? 1 : stage.carrier_speed / std::abs(rolling),
+               ring_share = rolling == 0 ? 0 : stage.ring_speed / std::abs(rolling);
   PlanetaryStage at = stage;
   Campbell result;
   result.speeds = speeds;
@@ -115,7 +119,8 @@ Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds
   std::vector<std::size_t> position(n);  // of each curve in the modes of the speed before
   std::iota(position.begin(), position.end(), std::size_t{0});
   for (std::size_t s = 0; s < speeds.size(); ++s) {
-    at.carrier_speed = speeds[s];
+    at.carrier_speed = speeds[s] * carrier_share;
+    at.ring_speed = speeds[s] * ring_share;
     result.mesh_frequency.push_back(at.mesh_frequency());
     auto now = rotating_modes(at, options.damping);
     Eigen::MatrixXd mac;
@@ -148,7 +153,7 @@ Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds
     before = std::move(now);
   }
   std::stable_sort(result.crossings.begin(), result.crossings.end(),
-                   [](const CriticalSpeed& a, const CriticalSpeed& b) { return a.carrier_speed < b.carrier_speed; });
+                   [](const CriticalSpeed& a, const CriticalSpeed& b) { return a.speed < b.speed; });
   return result;
 }
 

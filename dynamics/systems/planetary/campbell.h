@@ -24,10 +24,10 @@ struct CampbellCurve {
 
 /// Speed at which a mesh order equals a natural frequency.
 struct CriticalSpeed {
-  int curve = 0;             ///< index into `Campbell::curves`
-  int order = 0;             ///< multiple of the mesh frequency
-  double carrier_speed = 0;  ///< rad/s, between two speeds by linear interpolation
-  double frequency = 0;      ///< Hz
+  int curve = 0;         ///< index into `Campbell::curves`
+  int order = 0;         ///< multiple of the mesh frequency
+  double speed = 0;      ///< rad/s, of the carrier against the ring, between two speeds by linear interpolation
+  double frequency = 0;  ///< Hz
   /// |sum of phi^H b_n e^(-2 pi i order lag_n)| / sum |phi^H b_n|, the larger of sun and ring meshes. 0: the phases of
   /// the meshes prevent this order from exciting the mode [ParkerLin2004], or the mode whirls against it. 1: all meshes
   /// excite it together. For modes of one frequency: their combination that is excited most. Errors of the gears excite
@@ -39,15 +39,16 @@ struct CriticalSpeed {
 [[nodiscard]] std::vector<RotatingMode> modes_at_speed(const PlanetaryStage& stage);
 
 struct Campbell {
-  std::vector<double> speeds;            ///< carrier, rad/s
+  std::vector<double> speeds;            ///< carrier against ring, rad/s
   std::vector<double> mesh_frequency;    ///< Hz, one per speed, seen from the carrier; order h is h times it
   std::vector<CampbellCurve> curves;     ///< rising frequency at the first speed
   std::vector<CriticalSpeed> crossings;  ///< rising speed
 };
 
-/// Natural frequencies in the carrier frame over rising speeds (rad/s). Curves may cross. Where two of one kind veer,
-/// the shapes decide, so the steps must be finer than the veering. Throws InputError for speeds that do not rise or are
-/// negative, and what `rotating_modes` throws.
+/// Natural frequencies in the carrier frame over rising speeds (rad/s) of the carrier against the ring; all members
+/// keep the proportions of their speeds (the ring stands still where those of the stage are zero). Curves may cross.
+/// Where two of one kind veer, the shapes decide, so the steps must be finer than the veering. Throws InputError for
+/// speeds that do not rise or are negative, and what `rotating_modes` throws.
 [[nodiscard]] Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds,
                                 const CampbellOptions& options = {});
 

@@ -102,10 +102,10 @@ KindSorter::KindSorter(const LumpedSystem& system, int planets) : mass_(system.m
 
 ModeKind KindSorter::operator()(const Eigen::VectorXcd& shape) const {
   // (1e-6)^2 is far above the solver's rounding and far below any participation that means something.
-  constexpr double nothing = 1e-12;
-  const bool translates = (central_translation_ * shape).squaredNorm() >= nothing;
-  const bool turns = (central_rotation_ * shape).squaredNorm() >= nothing;
-  if (!translates && (planets_unlike_ * shape).squaredNorm() < nothing) return ModeKind::rotational;
+  constexpr double rounding = 1e-12;
+  const bool translates = (central_translation_ * shape).squaredNorm() >= rounding;
+  const bool turns = (central_rotation_ * shape).squaredNorm() >= rounding;
+  if (!translates && (planets_unlike_ * shape).squaredNorm() < rounding) return ModeKind::rotational;
   if (turns) return ModeKind::mixed;
   return translates ? ModeKind::translational : ModeKind::planet;
 }

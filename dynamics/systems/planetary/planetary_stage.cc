@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "core/errors.h"
 #include "dynamics/system/input_checks.h"
@@ -66,12 +69,35 @@ void check_coupling(const RingCoupling& coupling, const PlanetaryStage& stage) {
   }
 }
 
+/// rad/s, of the carrier against the ring: it sets the mesh frequency.
+double rolling_speed(const PlanetaryStage& s) { return s.carrier_speed - s.ring_speed; }
+
 // A stage at rest (for its modes) needs no numbers of teeth.
 double rate_of_planet(const PlanetaryStage& s) {
-  return s.carrier_speed == 0 ? 0 : -s.carrier_speed * s.ring_teeth / s.planet_teeth;
+  const double speed = rolling_speed(s);
+  return speed == 0 ? 0 : -speed * s.ring_teeth / s.planet_teeth;
 }
 double rate_of_sun(const PlanetaryStage& s) {
-  return s.carrier_speed == 0 ? 0 : s.carrier_speed * s.ring_teeth / s.sun_teeth;
+  const double speed = rolling_speed(s);
+  return speed == 0 ? 0 : speed * s.ring_teeth / s.sun_teeth;
+}
+
+/// lcm, as far as it stays below `never_repeats`.
+int common_period(int a, int b) {
+  const auto both = std::lcm(static_cast<std::int64_t>(a), static_cast<std::int64_t>(b));
+  return static_cast<int>(std::min<std::int64_t>(both, PlanetaryStage::never_repeats));
+}
+
+/// Mesh cycles in which the housing turns past the carrier a whole number of times.
+int cycles_of_housing(const PlanetaryStage& s) {
+  if (s.carrier_speed == 0) return 1;
+  if (s.ring_speed == 0) return s.ring_teeth;
+  constexpr int longest = 100000;
+  constexpr double whole = 1e-9;  // rounding of the speeds
+  const double turns = s.carrier_speed / (rolling_speed(s) * s.ring_teeth);
+  for (int cycles = 1; cycles <= longest; ++cycles)
+    if (std::abs(std::remainder(cycles * turns, 1)) <= whole * cycles * std::abs(turns)) return cycles;
+  return PlanetaryStage::never_repeats;
 }
 
 void add(std::vector<HarmonicError>& list, double sign, const Deviation& deviation, double rate, double phase) {
@@ -104,32 +130,35 @@ std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& s, int n) {
     add(list, +1, s.planet_errors[n].eccentricity, rate_of_planet(s), -alpha);
     add(list, +1, s.planet_errors[n].position, 0, -alpha - phi);
   }
-  add(list, -1, s.ring.errors.eccentricity, turn, -alpha - phi);
+  add(list, -1, s.ring.errors.eccentricity, -rolling_speed(s), -alpha - phi);
   add(list, -1, s.ring.errors.position, turn, -alpha - phi);
   add(list, +1, s.carrier.errors.eccentricity, 0, -alpha - phi);
   add(list, +1, s.carrier.errors.position, turn, -alpha - phi);
   return list;
 }
 
-double PlanetaryStage::mesh_frequency() const { return ring_teeth * carrier_speed / (2 * std::numbers::pi); }
+double PlanetaryStage::mesh_rate() const { return ring_teeth * rolling_speed(*this) / (2 * std::numbers::pi); }
+
+double PlanetaryStage::mesh_frequency() const { return std::abs(mesh_rate()); }
 
 double PlanetaryStage::mean_mesh_force() const { return sun_torque / (planets() * sun.radius); }
 
 double PlanetaryStage::carrier_torque() const { return sun_torque * (1 + static_cast<double>(ring_teeth) / sun_teeth); }
 
 int PlanetaryStage::error_period() const {
-  int period = std::lcm(period_in_cycles(sun_mesh), period_in_cycles(ring_mesh));
+  int period = common_period(period_in_cycles(sun_mesh), period_in_cycles(ring_mesh));
   if (ring_coupling) {
     const auto matrices = static_cast<int>(ring_coupling->compliance.size());
-    period = std::lcm(period, matrices / ring_coupling->per_cycle);
-    if (!ring_coupling->modes.empty()) period = std::lcm(period, ring_teeth);
+    period = common_period(period, matrices / ring_coupling->per_cycle);
+    if (!ring_coupling->modes.empty()) period = common_period(period, ring_teeth);
   }
-  if (carrier_speed == 0) return period;
+  if (rolling_speed(*this) == 0) return period;
   const auto eccentric = [](const BodyErrors& e) { return e.eccentricity.exists(); };
-  if (std::any_of(planet_errors.begin(), planet_errors.end(), eccentric)) period = std::lcm(period, planet_teeth);
-  if (sun.errors.eccentricity.exists()) period = std::lcm(period, sun_teeth);
-  if (sun.errors.position.exists() || has_errors(ring.errors) || carrier.errors.position.exists())
-    period = std::lcm(period, ring_teeth);
+  if (std::any_of(planet_errors.begin(), planet_errors.end(), eccentric)) period = common_period(period, planet_teeth);
+  if (sun.errors.eccentricity.exists()) period = common_period(period, sun_teeth);
+  if (ring.errors.eccentricity.exists()) period = common_period(period, ring_teeth);
+  if (sun.errors.position.exists() || ring.errors.position.exists() || carrier.errors.position.exists())
+    period = common_period(period, cycles_of_housing(*this));
   return period;
 }
 
@@ -164,19 +193,44 @@ void PlanetaryStage::check() const {
   if (ring_half_backlash) check_not_negative(*ring_half_backlash, "half backlash of the ring meshes");
   check_not_negative(mesh_damping_ratio, "mesh damping ratio");
   check_not_negative(support_damping_ratio, "support damping ratio");
-  check_not_negative(carrier_speed, "carrier speed");
+  for (const auto& [speed, name] : {std::pair{carrier_speed, "carrier"}, {ring_speed, "ring"}})
+    if (!std::isfinite(speed)) throw InputError(fmt::format("{} speed {} rad/s must be finite", name, speed));
+  if (held && sun_teeth > 0 && ring_teeth > 0) {
+    using geometry::StageMember;
+    const auto speeds = geometry::member_speeds(sun_teeth, ring_teeth, {StageMember::carrier, carrier_speed},
+                                                {StageMember::ring, ring_speed});
+    const double fastest =
+        std::max({std::abs(speeds[StageMember::sun]), std::abs(carrier_speed), std::abs(ring_speed)});
+    constexpr double rounding = 1e-9;
+    if (std::abs(speeds[*held]) > rounding * fastest)
+      throw InputError(fmt::format("the {} is held and turns at {} rad/s",
+                                   *held == StageMember::sun       ? "sun"
+                                   : *held == StageMember::carrier ? "carrier"
+                                                                   : "ring",
+                                   speeds[*held]));
+  }
+  if (ring_speed != 0 && ring_coupling && !ring_coupling->modes.empty())
+    throw InputError(
+        fmt::format("the elastic modes of a ring that turns (here at {} rad/s) are not modelled: they would need its "
+                    "Coriolis forces; leave them out",
+                    ring_speed));
   if (!std::isfinite(sun_torque)) throw InputError(fmt::format("sun torque {} N m must be finite", sun_torque));
   // Without teeth there are natural frequencies, but no mesh frequency, torque ratio or rate of the errors.
-  if ((carrier_speed > 0 || sun_torque != 0 || any_errors(*this)) &&
+  if ((carrier_speed != 0 || ring_speed != 0 || sun_torque != 0 || any_errors(*this)) &&
       !(sun_teeth > 0 && planet_teeth > 0 && ring_teeth > 0))
     throw InputError(
         fmt::format("speed, torque and errors need the numbers of teeth of sun, planet and ring, not {}, {} and {}",
                     sun_teeth, planet_teeth, ring_teeth));
   if (sun_torque != 0) {
-    if (sun.torsional_support == rigid)
-      throw InputError(fmt::format(
-          "the sun cannot turn (rigid torsional support), so its torque of {} N m would not reach the meshes",
-          sun_torque));
+    using geometry::StageMember;
+    for (const auto& [body, member, name] : {std::tuple{&sun, StageMember::sun, "sun"},
+                                             {&carrier, StageMember::carrier, "carrier"},
+                                             {&ring, StageMember::ring, "ring"}})
+      if (body->torsional_support == rigid && held != member)
+        throw InputError(
+            fmt::format("the {} cannot turn (rigid torsional support), so its torque would not reach the meshes; the "
+                        "torque of the sun is {} N m",
+                        name, sun_torque));
     // Per metre of carrier motion the sun moves (cos a_s + cos a_r) metres: virtual work against the tooth ratio.
     const double ratio = carrier.radius * (std::cos(sun_working_angle) + std::cos(ring_working_angle)) / sun.radius;
     const double expected = 1 + static_cast<double>(ring_teeth) / sun_teeth;

@@ -7,6 +7,7 @@
 #include "core/ring_coupling.h"
 #include "dynamics/system/mesh_excitation.h"
 #include "dynamics/system/support.h"
+#include "geometry/power_flow.h"
 
 namespace annulus::geometry {
 class PlanetarySet;
@@ -58,8 +59,8 @@ struct PlanetBody {
   double bearing_tangential = rigid;
 };
 
-/// A planetary stage with its ring in the housing, as lumped masses; SI. After [HuFangXuShen2021, eqs. (15) to (39)],
-/// corrected:
+/// A planetary stage as lumped masses; SI. Any of sun, carrier and ring may be held or turn. After [HuFangXuShen2021,
+/// eqs. (15) to (39)], corrected:
 ///
 ///   delta_sn = u_s - x_s sin(phi_n - a_s) + y_s cos(phi_n - a_s) + u_n - x_n sin a_s - y_n cos a_s - e_sn     (15)
 ///   delta_rn = u_r - x_r sin(phi_n + a_r) + y_r cos(phi_n + a_r) - u_n + x_n sin a_r - y_n cos a_r - e_rn     (16)
@@ -100,8 +101,12 @@ struct PlanetaryStage {
   /// contact then pull.
   bool damping_without_contact = false;
 
-  double carrier_speed = 0;  ///< Omega_c, rad/s, >= 0
-  double sun_torque = 0;     ///< T_s, N m; the carrier bears -T_s (1 + z_r/z_s)
+  /// Omega_c and Omega_r, rad/s, counter-clockwise; the sun's follows (geometry/power_flow.h). Where the carrier turns
+  /// clockwise against the ring, the meshes run through their cycles backwards: the carrier then drives, or the ring.
+  double carrier_speed = 0, ring_speed = 0;
+  double sun_torque = 0;  ///< T_s, N m, counter-clockwise; T_r = T_s z_r/z_s and T_c = -T_s (1 + z_r/z_s)
+  /// The member whose torsional support bears its torque; the torques of the others act as loads. None: a differential.
+  std::optional<geometry::StageMember> held = geometry::StageMember::ring;
   /// Terms of the rotating frame: gyroscopic, centripetal, dampers to the housing c(x' - Omega y).
   ///
   /// The centripetal term of a planet is -m Omega^2 (x_n, y_n - u_c), which contains the centrifugal preload of the
@@ -110,13 +115,16 @@ struct PlanetaryStage {
   bool rotating_frame = true;
 
   [[nodiscard]] int planets() const { return static_cast<int>(planet_angles.size()); }
-  [[nodiscard]] double mesh_frequency() const;   ///< Hz: z_r Omega_c / 2 pi
+  [[nodiscard]] double mesh_rate() const;        ///< Hz: z_r (Omega_c - Omega_r) / 2 pi
+  [[nodiscard]] double mesh_frequency() const;   ///< Hz: |mesh_rate|
   [[nodiscard]] double mean_mesh_force() const;  ///< N: T_s / (N r_bs), of every sun and ring mesh
   [[nodiscard]] double carrier_torque() const;   ///< N m: T_s (1 + z_r/z_s), positive number
   /// Mesh cycles after which excitation and errors repeat. It is the least common multiple of z_p (planet
-  /// eccentricities), z_s (sun eccentricity), z_r (errors fixed in the housing, modes of the ring) and the periods of
-  /// tables and coupling.
+  /// eccentricities), z_s (sun eccentricity), z_r (ring eccentricity, modes of the ring), of the cycles in which the
+  /// housing turns past the carrier (position errors of central bodies; z_r where the ring is held) and the periods of
+  /// tables and coupling. `never_repeats` where the speeds of a differential have no such multiple.
   [[nodiscard]] int error_period() const;
+  static constexpr int never_repeats = 1 << 30;
 
   /// Throws InputError with name and value of the quantity when the stage cannot be assembled.
   void check() const;
@@ -124,11 +132,12 @@ struct PlanetaryStage {
 
 /// Terms of the transmission error e (m) of the meshes of planet n from eccentricities and position errors alone, after
 /// [HuFangXuShen2021, eq. (22)], corrected. E, th: eccentricity, A: position error.
-///   planet:  e_sn = E sin(w t + th + a_s),           e_rn = E sin(w t + th - a_r),   w = -(z_r/z_p) Omega_c
+///   planet:  e_sn = E sin(w t + th + a_s),           e_rn = E sin(w t + th - a_r),   w = -(z_r/z_p) Omega
 ///            e_sn = A sin(th - phi_n + a_s),         e_rn = A sin(th - phi_n - a_r)
-///   sun:     e_sn = -E sin(w t + th - phi_n + a_s),  w = (z_r/z_s) Omega_c; position: w = -Omega_c
-///   ring:    e_rn = -E sin(w t + th - phi_n - a_r),  w = -Omega_c, position likewise
+///   sun:     e_sn = -E sin(w t + th - phi_n + a_s),  w = (z_r/z_s) Omega; position: w = -Omega_c
+///   ring:    e_rn = -E sin(w t + th - phi_n - a_r),  w = -Omega; position: w = -Omega_c
 ///   carrier: as a displacement of the planet: + ..., eccentricity w = 0, position w = -Omega_c
+/// with Omega = Omega_c - Omega_r.
 [[nodiscard]] std::vector<HarmonicError> sun_mesh_errors(const PlanetaryStage& stage, int n);
 [[nodiscard]] std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& stage, int n);
 

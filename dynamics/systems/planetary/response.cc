@@ -15,9 +15,10 @@ namespace {
 
 void check_simulation(const PlanetaryStage& stage) {
   stage.check();
-  if (!(stage.carrier_speed > 0))
+  if (!(stage.mesh_frequency() > 0))
     throw InputError(
-        fmt::format("a time response needs a carrier speed above zero, not {} rad/s", stage.carrier_speed));
+        fmt::format("a time response needs a carrier that turns against the ring; their speeds are {} and {} rad/s",
+                    stage.carrier_speed, stage.ring_speed));
   if (!(stage.sun_torque > 0))
     throw InputError(
         fmt::format("a time response needs a positive sun torque (drive flanks loaded), not {} N m", stage.sun_torque));
@@ -44,9 +45,12 @@ void set_figures(const PlanetaryStage& stage, const SimulationOptions& options, 
 
 /// See DynamicResponse::force_balance_relative.
 double force_balance(const PlanetaryStage& stage, const LumpedSystem& system, const SteadyResponse& found) {
-  const int u = system.find("sun_u");
+  // Of the ring where the sun is held: its load reaches the ring meshes in the same sense.
+  const bool sun = stage.held != geometry::StageMember::sun;
+  const int u = system.find(sun ? "sun_u" : "ring_u");
   const double duration = found.window_cycles / stage.mesh_frequency();
-  const double forces = averaging_force(found.best).topRows(stage.planets()).colwise().sum().mean();
+  const Eigen::MatrixXd all = averaging_force(found.best);
+  const double forces = (sun ? all.topRows(stage.planets()) : all.bottomRows(stage.planets())).colwise().sum().mean();
   const double support = system.stiffness()(u, u) * found.best.displacement.row(u).mean() +
                          system.damping()(u, u) * (found.end.q[u] - found.begin.q[u]) / duration;
   const double inertia = system.mass()(u, u) * (found.end.v[u] - found.begin.v[u]) / duration;
@@ -79,9 +83,11 @@ QuasiStatic quasi_static(const PlanetaryStage& stage, int positions_per_cycle, i
   if (positions_per_cycle < 1 || max_cycles < 1)
     throw InputError(fmt::format("quasi-static analysis needs at least one position and one mesh cycle, not {} and {}",
                                  positions_per_cycle, max_cycles));
-  if (!(stage.carrier_speed > 0))
-    throw InputError(fmt::format(
-        "quasi-static positions follow from the carrier speed, {} rad/s, which must be positive", stage.carrier_speed));
+  if (!(stage.mesh_frequency() > 0))
+    throw InputError(
+        fmt::format("quasi-static positions need a carrier that turns against the ring; their speeds are {} and {} "
+                    "rad/s",
+                    stage.carrier_speed, stage.ring_speed));
   const int positions = positions_per_cycle * std::min(stage.error_period(), max_cycles);
   const auto path = static_path(assemble(stage), Eigen::VectorXd::LinSpaced(positions, 0, positions - 1) /
                                                      (positions_per_cycle * stage.mesh_frequency()));

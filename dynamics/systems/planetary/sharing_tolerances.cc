@@ -101,8 +101,11 @@ class LinearForces {
     }
     const auto repeat = static_cast<long>(perfect.force.size());
     for (const auto& [rate, amplitudes] : by_rate) {
-      const long own = rate == 0 ? 1 : std::lround(2 * std::numbers::pi * frequency / std::abs(rate));
-      auto& term = terms_.emplace_back(stage.planets(), std::lcm(repeat, std::max(1L, own)));
+      const double turn_cycles = rate == 0 ? 1 : 2 * std::numbers::pi * frequency / std::abs(rate);
+      const long own = std::max(1L, std::lround(turn_cycles));
+      // The housing turns past the carrier of a differential in no whole number of cycles.
+      const bool repeats = std::abs(turn_cycles - static_cast<double>(own)) < 1e-6 * turn_cycles;
+      auto& term = terms_.emplace_back(stage.planets(), repeats ? std::lcm(repeat, own) : cycles_);
       for (long c = 0; c < term.cols(); ++c) {
         const auto turn = std::polar(1.0, rate * (static_cast<double>(c) + 0.5) / frequency);
         term.col(c) = perfect.per_error[static_cast<std::size_t>(c % repeat)] * (amplitudes * turn).imag();

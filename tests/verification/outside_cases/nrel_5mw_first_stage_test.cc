@@ -130,11 +130,14 @@ BOOST_AUTO_TEST_CASE(geometry_and_forces) {
   first.compare(record, "span_over_8_spaces_ring", units::mm,
                 [](const Stage& s) { return s.ring.base_tangent_length(8); });
   const auto& point = first.geometry.operating_point;
-  first.compare(record, "sun_speed", units::rpm, [&](const Stage&) { return point.sun_speed; });
+  first.compare(record, "sun_speed", units::rpm,
+                [&](const Stage&) { return point.flow.speed[geometry::StageMember::sun]; });
   first.compare(
       record, "sun_torque", 1, [&](const Stage&) { return point.sun_torque; }, FirstStage::power_rounding);
   first.compare(
-      record, "carrier_torque", 1, [&](const Stage&) { return point.carrier_torque; }, FirstStage::power_rounding);
+      record, "carrier_torque", 1,
+      [&](const Stage&) { return std::abs(point.flow.torque[geometry::StageMember::carrier]); },
+      FirstStage::power_rounding);
   first.compare(
       record, "normal_force", 1, [&](const Stage&) { return point.mean_mesh_force; }, FirstStage::power_rounding);
   first.compare(

@@ -77,14 +77,21 @@ PageTable modes_table(const RunResult& result) {
   return table;
 }
 
-Plot campbell_plot(const std::string& name, const StageModes& modes, double sun_speed_rpm) {
-  const auto speed = column_values(modes.campbell, "sun_speed_rpm");
+/// The member whose speed is the axis of the Campbell diagram, and that speed.
+struct DriverSpeed {
+  std::string member;
+  double rpm = 0;
+  [[nodiscard]] std::string column() const { return member + "_speed_rpm"; }
+};
+
+Plot campbell_plot(const std::string& name, const StageModes& modes, const DriverSpeed& driver) {
+  const auto speed = column_values(modes.campbell, driver.column());
   const auto mesh = column_values(modes.campbell, "mesh_frequency_Hz");
   const auto orders = column_values(modes.critical_speeds, "mesh_order");
   const int highest = orders.empty() ? 1 : static_cast<int>(*std::max_element(orders.begin(), orders.end()));
   const double top = 1.08 * highest * mesh.back() / 1e3;
   Plot plot{.title = name,
-            .x_label = "sun speed, r/min",
+            .x_label = driver.member + " speed, r/min",
             .y_label = "frequency, kHz",
             .x_range = Range{0, speed.back()},
             .y_range = Range{0, top},
@@ -105,48 +112,49 @@ Plot campbell_plot(const std::string& name, const StageModes& modes, double sun_
   Series critical{.label = "excited", .colour = 7, .style = Series::Style::dots};
   for (const auto& row : modes.critical_speeds.rows) {
     if (row[modes.critical_speeds.column("participation")] < felt) continue;
-    critical.x.push_back(row[0]);
+    critical.x.push_back(row[modes.critical_speeds.column(driver.column())]);
     critical.y.push_back(row[modes.critical_speeds.column("frequency_Hz")] / 1e3);
   }
   plot.series.push_back(std::move(critical));
-  plot.series.push_back({.label = "operating speed", .x = {sun_speed_rpm, sun_speed_rpm}, .y = {0, top}, .colour = 4});
+  plot.series.push_back({.label = "operating speed", .x = {driver.rpm, driver.rpm}, .y = {0, top}, .colour = 4});
   return plot;
 }
 
 /// The excited crossings nearest to the operating speed.
-Text critical_cell(const StageModes& modes, double sun_speed_rpm) {
+Text critical_cell(const StageModes& modes, const DriverSpeed& driver) {
   const auto& csv = modes.critical_speeds;
   const auto frequency = csv.column("frequency_Hz"), order = csv.column("mesh_order"), mode = csv.column("mode"),
-             participation = csv.column("participation");
+             participation = csv.column("participation"), speed = csv.column(driver.column());
   std::vector<const std::vector<double>*> rows;
   for (const auto& row : csv.rows) {
     // Members of a multiple mode meet an order together.
-    const bool again =
-        std::any_of(rows.begin(), rows.end(), [&](const auto* r) { return std::abs((*r)[0] / row[0] - 1) < 1e-6; });
+    const bool again = std::any_of(rows.begin(), rows.end(),
+                                   [&](const auto* r) { return std::abs((*r)[speed] / row[speed] - 1) < 1e-6; });
     if (row[participation] >= felt && !again) rows.push_back(&row);
   }
   std::stable_sort(rows.begin(), rows.end(), [&](const auto* a, const auto* b) {
-    return std::abs((*a)[0] - sun_speed_rpm) < std::abs((*b)[0] - sun_speed_rpm);
+    return std::abs((*a)[speed] - driver.rpm) < std::abs((*b)[speed] - driver.rpm);
   });
   std::vector<Text> speeds;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, rows.size()); ++i) {
     const auto& row = *rows[i];
     const auto& kind = modes.list[static_cast<std::size_t>(row[mode]) - 1].kind;
     speeds.push_back(
-        phrase("{:.0f} r/min {}", row[0],
+        phrase("{:.0f} r/min {}", row[speed],
                muted(fmt::format("order {:.0f} with the {} mode at {:.0f} Hz", row[order], kind, row[frequency]))));
   }
   return speeds.empty() ? "none" : joined(speeds, line_break());
 }
 
 Blocks campbell_part(const RunResult& result) {
-  const double speed = result.geometry.operating_point.sun_speed / units::rpm;
+  const auto& point = result.geometry.operating_point;
+  const DriverSpeed driver{to_string(point.driver), std::abs(point.flow.speed[point.driver]) / units::rpm};
   std::vector<Picture> pictures;
   PageTable table{.head = {"ring", "critical speeds nearest to the operating speed"}};
   for (const auto& [name, response] : responses_of(result)) {
     if (response->modes.campbell.rows.empty()) continue;
-    pictures.emplace_back(campbell_plot(name, response->modes, speed));
-    table.rows.push_back({name, critical_cell(response->modes, speed)});
+    pictures.emplace_back(campbell_plot(name, response->modes, driver));
+    table.rows.push_back({name, critical_cell(response->modes, driver)});
   }
   if (pictures.empty()) return {};
   Legend legend;

@@ -36,8 +36,8 @@ PageTable motion_table(const RunResult& result) {
   row("largest force on the sun's support", force, [](const StageMotion& m) { return m.sun_support_max; });
   row("largest force on the ring's support", force, [](const StageMotion& m) { return m.ring_support_max; });
   row("largest force on the carrier's support", force, [](const StageMotion& m) { return m.carrier_support_max; });
-  row("mean torque on the housing through the ring", shown_units::torque,
-      [](const StageMotion& m) { return m.ring_torque_mean; });
+  row("mean torque on the housing through the held member", shown_units::torque,
+      [](const StageMotion& m) { return m.held_torque_mean; });
   row("sun orbit, largest distance from its mean", shown_units::length,
       [](const StageMotion& m) { return m.sun_orbit_extent; });
   rows.push_back({"repetition of the motion", [](const StageResponse& r) { return Text(section_words(r.motion)); }});

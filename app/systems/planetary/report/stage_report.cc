@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "core/units.h"
 
@@ -47,6 +49,21 @@ std::vector<std::string> planet_names(const RunResult& result) {
   return names;
 }
 
+Section power_flow_section(const RunResult& result) {
+  const auto& point = result.geometry.operating_point;
+  PageTable table{.head = {"", "role", "speed, r/min", "torque on it, N m", "power into the stage, kW"}};
+  for (const auto member : stage_members)
+    table.rows.push_back({to_string(member), role_of(result.scene, point, member),
+                          to_text(point.flow.speed[member] / units::rpm, 6), to_text(point.flow.torque[member], 6),
+                          to_text(point.flow.power(member) / units::kW, 6)});
+  return {
+      "power-flow", "Power flow",
+      table + paragraph(point.mirrored ? "Counter-clockwise is positive. The stage is computed as its mirror image, "
+                                         "in which the torque of the sun is counter-clockwise. Directions and "
+                                         "drawings below are those of the mirror image."
+                                       : "Counter-clockwise is positive.")};
+}
+
 }  // namespace
 
 Page stage_report(const RunResult& result) {
@@ -55,15 +72,17 @@ Page stage_report(const RunResult& result) {
   const auto meshes = named_meshes(result);
   return run_page(
       result,
-      {.words = fmt::format("{} planets, {} kW at {} r/min of the sun", scene.stage.planets,
-                            to_text(point.power / 1e3, 6), to_text(point.sun_speed / units::rpm, 6)),
+      {.words =
+           fmt::format("{} planets, {} kW at {} r/min of the {}", scene.stage.planets, to_text(point.power / 1e3, 6),
+                       to_text(std::abs(point.flow.speed[point.driver]) / units::rpm, 6), to_string(point.driver)),
        .answer = stage_verdict(result),
        .results = {key_results(result, {{"ring_planet_", "Ring meshes"}, {"sun_planet_", "Sun meshes"}, {"", "Stage"}},
                                fmt::format("At the nominal mesh force of {}. ",
                                            text_in_unit(point.mean_mesh_force, shown_units::force, 5))),
                    comparison_section(result)},
        .meshes = meshes,
-       .sections = {tolerances_section(result),
+       .sections = {power_flow_section(result),
+                    tolerances_section(result),
                     dynamics_section(result),
                     motion_section(result),
                     supports_section(result),

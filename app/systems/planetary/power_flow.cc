@@ -1,0 +1,162 @@
+#include "app/systems/planetary/power_flow.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/scene/key_checks.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+using geometry::StageMember;
+
+/// A turn in two years; powers divided by less are no torques.
+constexpr double slowest = 1e-6 * units::rpm;
+
+std::string speed_key(StageMember member) { return fmt::format("stage.{}_speed_rpm", to_string(member)); }
+
+const std::optional<double>& given_speed(const StageInput& stage, StageMember member) {
+  return member == StageMember::sun       ? stage.sun_speed
+         : member == StageMember::carrier ? stage.carrier_speed
+                                          : stage.ring_speed;
+}
+
+class PowerFlowChecks : KeyChecks {
+ public:
+  using KeyChecks::KeyChecks;
+
+  void run() {
+    if (!usable("stage.held") || !usable("stage.drives")) return;
+    if (stage().held == stage().drives)
+      return problem("stage.drives", fmt::format("the {} is held (stage.held) and cannot drive; use {}",
+                                                 to_string(stage().drives), fmt::join(turning(), " or ")));
+    if (number_of_speeds() && usable("sun.teeth") && usable("ring.teeth") && !scene_.rings.empty() &&
+        scene_.sun.teeth > 0 && scene_.rings.front().teeth > 0 && values_of_speeds() && clockwise_torque())
+      mirror();
+  }
+
+ private:
+  [[nodiscard]] const StageInput& stage() const { return scene_.stage; }
+
+  /// In quotes, the members that turn.
+  [[nodiscard]] std::vector<std::string> turning() const {
+    std::vector<std::string> names;
+    for (const auto member : stage_members)
+      if (stage().held != member) names.push_back(fmt::format("\"{}\"", to_string(member)));
+    return names;
+  }
+
+  bool number_of_speeds() {
+    const std::size_t needed = stage().held ? 1 : 2;
+    std::vector<std::string> possible, found;
+    for (const auto member : stage_members) {
+      const auto key = speed_key(member);
+      if (given(key) && !usable(key)) return false;  // refused for another reason
+      if (stage().held == member) {
+        if (given(key)) return false;  // refused by its rule
+        continue;
+      }
+      possible.push_back(key);
+      if (given(key)) found.push_back(key);
+    }
+    if (found.size() == needed) return true;
+    if (found.size() < needed) {
+      const auto missing = found.empty() || found.front() != possible.front() ? possible.front() : possible[1];
+      problem(missing, needed == 1 ? fmt::format("one of {} is required", fmt::join(possible, ", "))
+                                   : fmt::format("two of {} are required: no member is held (stage.held)",
+                                                 fmt::join(possible, ", ")));
+    } else {
+      problem(found.back(),
+              fmt::format("is given beside {}; give {} of {}", fmt::join(found.begin(), found.end() - 1, " and "),
+                          needed == 1 ? "one" : "two", fmt::join(possible, ", ")));
+    }
+    return false;
+  }
+
+  bool values_of_speeds() {
+    if (stage().held)
+      for (const auto member : stage_members)
+        if (const auto& speed = given_speed(stage(), member); speed && std::abs(*speed) < slowest) {
+          problem(speed_key(member),
+                  "must be at least 1e-06 r/min in one direction or the other, so that the stage turns");
+          return false;
+        }
+    const auto speeds = this->speeds();
+    const double rolling = speeds[StageMember::carrier] - speeds[StageMember::ring];
+    if (std::abs(rolling) < slowest) {
+      problem(first_speed(), "all members then turn at the same speed, and the teeth do not roll on each other");
+      return false;
+    }
+    if (std::abs(speeds[stage().drives]) < slowest) {
+      problem("stage.drives",
+              fmt::format("the {} turns at {} r/min and can drive nothing; use {}", to_string(stage().drives),
+                          to_text(speeds[stage().drives] / units::rpm, 3), fmt::join(turning(), " or ")));
+      return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] geometry::MemberValues speeds() const {
+    return stage_speeds(stage(), scene_.sun.teeth, scene_.rings.front().teeth);
+  }
+  [[nodiscard]] std::string first_speed() const {
+    for (const auto member : stage_members)
+      if (given_speed(stage(), member)) return speed_key(member);
+    return speed_key(StageMember::sun);
+  }
+
+  /// Of the sun.
+  [[nodiscard]] bool clockwise_torque() const {
+    return geometry::member_torques(scene_.sun.teeth, scene_.rings.front().teeth, stage().drives,
+                                    speeds()[stage().drives])[StageMember::sun] < 0;
+  }
+
+  /// Angles in the mirror image count the other way round. Planets keep their numbers.
+  void mirror() {
+    auto& stage = scene_.stage;
+    stage.helix_angle = -stage.helix_angle;
+    const auto reversed = [](double angle) { return angle == 0 ? 0 : 2 * std::numbers::pi - angle; };
+    const auto planets = static_cast<std::size_t>(stage.planets);
+    if (stage.planet_angles.empty() && planets > 0 &&
+        (scene_.sun.teeth + scene_.rings.front().teeth) % stage.planets == 0)
+      for (std::size_t n = 0; n < planets; ++n)
+        stage.planet_angles.push_back(2 * std::numbers::pi * static_cast<double>(n) / static_cast<double>(planets));
+    for (double& angle : stage.planet_angles) angle = reversed(angle);
+    for (auto& ring : scene_.rings) {
+      for (double& angle : ring.pin_angles) angle = -angle;
+      for (auto* first : {&ring.first_pin_angle, &ring.first_spline_angle, &ring.first_bolt_angle})
+        if (*first) **first = -**first;
+    }
+    auto& e = scene_.errors;
+    for (auto* phases : {&e.planet_eccentricity_phase, &e.planet_pin_position_phase})
+      for (double& phase : *phases) phase = -phase;
+    for (auto* body : {&e.sun, &e.ring, &e.carrier}) {
+      body->eccentricity_phase = -body->eccentricity_phase;
+      body->position_phase = -body->position_phase;
+    }
+  }
+};
+
+}  // namespace
+
+void check_power_flow(Scene& scene, std::vector<Problem>& problems) { PowerFlowChecks(scene, problems).run(); }
+
+std::string role_of(const Scene& scene, const OperatingPoint& point, StageMember member) {
+  if (scene.stage.held == member) return "held";
+  const double power = point.flow.power(member), least = 1e-9 * std::abs(point.power);
+  return power > least ? "drives" : power < -least ? "delivers" : "carries torque at rest";
+}
+
+std::string power_flow_words(const Scene& scene, const OperatingPoint& point) {
+  std::vector<std::string> words;
+  for (const auto member : stage_members)
+    words.push_back(fmt::format("{} {}", to_string(member), role_of(scene, point, member)));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/plan/operating_point.h"
+#include "app/scene/scene.h"
+
+namespace annulus::app {
+
+/// Which member is held and drives, and what is known of the speeds. Where the torque of the sun then is clockwise, the
+/// scene becomes its mirror image (directions reversed, helix of the other hand), which is what is computed.
+void check_power_flow(Scene& scene, std::vector<Problem>& problems);
+
+/// What a member does: "drives", "delivers", "held", or "idles" without speed.
+[[nodiscard]] std::string role_of(const Scene& scene, const OperatingPoint& point, geometry::StageMember member);
+/// "sun drives, ring held, carrier delivers".
+[[nodiscard]] std::string power_flow_words(const Scene& scene, const OperatingPoint& point);
+
+inline constexpr geometry::StageMember stage_members[] = {geometry::StageMember::sun, geometry::StageMember::carrier,
+                                                          geometry::StageMember::ring};
+
+}  // namespace annulus::app
