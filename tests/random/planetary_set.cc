@@ -203,7 +203,8 @@ GearSet planetary_set(Draw& draw, Section section) {
     if ((held.empty() ? "ring" : held) != body) set.chances[std::string("supports.") + body + "_torsional_N_per_m"] = 0;
   }
   const auto coupling = draw.one_of<std::string>({"automatic", "none", "static", "elastic"});
-  v["dynamics.rim_coupling"] = coupling;
+  const auto held = draft.text_of("stage.held");
+  v["dynamics.rim_coupling"] = coupling == "elastic" && !held.empty() && held != "ring" ? "static" : coupling;
   set.chances["dynamics.rim_coupling"] = 0.15;
   if (coupling == "static" || coupling == "elastic") set.chances["mesh.ring_planet"] = 0;
   return set;

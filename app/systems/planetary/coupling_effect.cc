@@ -37,7 +37,8 @@ CouplingEffect coupling_effect(const dynamics::PlanetaryStage& uncoupled, const 
   CouplingEffect effect;
   effect.cycles = evaluated_cycles;
   for (const auto model : {RimCoupling::none, RimCoupling::statical, RimCoupling::elastic}) {
-    if (model == RimCoupling::elastic && solved.coupling.modes.empty()) continue;
+    // The modes of a ring that turns are not modelled.
+    if (model == RimCoupling::elastic && (solved.coupling.modes.empty() || uncoupled.ring_speed != 0)) continue;
     const char* name = model == RimCoupling::elastic ? "elastic modes" : model == RimCoupling::none ? "none" : "static";
     dynamics::PlanetaryStage stage = uncoupled;
     stage.ring_coupling = taken_coupling(solved, model);

@@ -190,6 +190,10 @@ class PlanetaryChecker : KeyChecks {
       problem("dynamics.rim_coupling",
               "needs a computed ring mesh: a prescribed stiffness does not describe the ring; use \"none\" or "
               "\"automatic\"");
+    if (coupling == RimCoupling::elastic && usable("stage.held") && scene_.stage.held != geometry::StageMember::ring)
+      problem("dynamics.rim_coupling",
+              "is not modelled for a ring that turns (stage.held), whose modes would need its Coriolis forces; use "
+              "\"static\" or \"automatic\"");
     for (const auto& ring : scene_.rings)
       if (ring_structure(ring).single_supports() == 1)
         problem("dynamics.rim_coupling",

@@ -55,6 +55,9 @@ Section coupling_section(const RunResult& result) {
                                             "whole period. Compare the rows with each other, not with the key results.",
                                             cycles)) +
                       effect;
+  if (!effect.rows.empty() && result.scene.stage.held != geometry::StageMember::ring)
+    section.blocks +=
+        paragraph("Elastic modes are not compared: the ring turns, and they would need its Coriolis forces.");
   if (!negligible.empty())
     section.blocks += paragraph(
         fmt::format("The effect was not computed for '{}': the coupling is less than a tenth of the wanted accuracy.",
