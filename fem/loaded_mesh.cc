@@ -68,7 +68,9 @@ class Refinement {
     static_cast<SolveCost&>(result) = cost_;
     result.level = level;
     result.degree = settings_.degree;
-    result.worst_error_relative = worst_;
+    result.worst_error_relative = errors_.worst;
+    result.planet_stress_error = errors_.planet_stress;
+    result.wheel_stress_error = errors_.wheel_stress;
     return result;
   }
 
@@ -86,10 +88,9 @@ class Refinement {
     bool accepted = false;
     const auto estimate = [&](SolvedLevel& finer) {
       const auto errors =
-          estimate_errors(problem_, settings_, finer.contact_error, coarser_.positions, finer.positions, difference_);
-      worst_ = errors.worst;
-      next_difference_ = errors.difference;
-      return accepted = settings_.level || worst_ <= settings_.accuracy;
+          estimate_errors(problem_, settings_, finer.own, coarser_.positions, finer.positions, difference_);
+      errors_ = errors;
+      return accepted = settings_.level || errors_.worst <= settings_.accuracy;
     };
     finer_ = solve(level, estimate);
     if (!accepted) return false;
@@ -99,7 +100,7 @@ class Refinement {
 
   /// The level to solve after one that is not accurate enough; linear elements give way to quadratic ones.
   [[nodiscard]] int next(int level) {
-    difference_ = next_difference_;
+    difference_ = errors_.difference;
     if (settings_.degree == 1 && level >= last_linear_level(problem_)) {
       settings_.degree = 2;
       coarser_ = solve(0, {});
@@ -110,7 +111,7 @@ class Refinement {
       throw SolverError(
           fmt::format("the mesh stiffness reached a relative accuracy of {:.2g} at the finest resolution, not "
                       "the wanted {:.2g}: ask for less accuracy",
-                      worst_, settings_.accuracy));
+                      errors_.worst, settings_.accuracy));
     std::swap(coarser_, finer_);
     return level + 1;
   }
@@ -121,7 +122,7 @@ class Refinement {
   int last_level_, first_level_;
   SolvedLevel coarser_, finer_;
   std::optional<double> difference_;  // of the last two levels
-  double next_difference_ = 0, worst_ = 0;
+  LevelErrors errors_;
   SolveCost cost_;
 };
 

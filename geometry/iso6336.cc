@@ -147,4 +147,14 @@ double nominal_root_stress(const Gear& gear, const RootSection& root, double tan
   return tangential_force / (p.face_width * p.module) * root.form_factor * root.stress_correction;
 }
 
+double rim_thickness_factor(const Gear& gear, double rim) {
+  const auto& p = gear.parameters();
+  if (gear.kind() == GearKind::internal) {
+    const double in_modules = std::max(1.75, rim / p.module);
+    return in_modules >= 3.5 ? 1 : 1.15 * std::log(8.324 / in_modules);
+  }
+  const double height = gear.tip_radius() - gear.root_radius(), in_heights = std::max(0.5, rim / height);
+  return in_heights >= 1.2 ? 1 : 1.6 * std::log(2.242 / in_heights);
+}
+
 }  // namespace annulus::geometry

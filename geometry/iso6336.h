@@ -71,4 +71,9 @@ struct RootSection {
 /// sigma_F0 = F_t / (b m) Y_F Y_S [ISO6336-3], Pa, for thick rims; F_t (N) at the reference circle.
 [[nodiscard]] double nominal_root_stress(const Gear& gear, const RootSection& root, double tangential_force);
 
+/// Y_B [ISO6336-3] of a rim of thickness `rim` (m) between the root and a bore or the outside, as a factor of the root
+/// stress: 1 from 1.2 tooth heights on (internal: 3.5 modules). Thinner than half a tooth height (1.75 modules) counts
+/// as that: the standard tells to avoid it.
+[[nodiscard]] double rim_thickness_factor(const Gear& gear, double rim);
+
 }  // namespace annulus::geometry

@@ -91,7 +91,6 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
       stress.term = std::string(key).starts_with("root") ? "root_stress" : "rim_stress";
       stress.headline = std::string(key) != "root_von_mises";
       stress.scale = 1e-6;
-      stress.digits = 3;  // no error is estimated
     }
   return specs;
 }
@@ -108,10 +107,10 @@ FigureSet mesh_figures(const MeshResult& mesh) {
   if (!mesh.model.computed()) return figures;
   for (const bool planet : {true, false})
     for (const auto& [key, title] : stress_names) {
-      const auto column = fmt::format("{}_{}", mesh.model.body_name(planet), key);
+      const auto& body = mesh.model.body_name(planet);
       // A body without a free rim has none of its stresses.
-      if (const auto stress = mesh.peak(column + "_MPa"); stress && std::isfinite(stress->value) && stress->value != 0)
-        figures.set(fmt::format("{}_{}_Pa", name, column), 1e6 * stress->value);
+      if (const auto stress = mesh.largest_stress(body, key))
+        set(figures, fmt::format("{}_{}_{}_Pa", name, body, key), *stress);
     }
   return figures;
 }

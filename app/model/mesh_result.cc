@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "app/model/mesh_tables.h"
 #include "app/report/drawings/mesh.h"
@@ -18,7 +19,7 @@ namespace {
 /// A closed form needs no mesh.
 bool has_mesh(const fem::LoadedMeshResult& solved) { return !solved.wheel_sector.cells.empty(); }
 
-std::map<std::string, double> facts_of(const fem::LoadedMeshResult& solved) {
+std::map<std::string, double> facts_of(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   std::map<std::string, double> facts = {{"closure_relative", solved.closure_relative},
                                          {"reciprocity_relative", solved.reciprocity_relative},
                                          {"level", solved.level},
@@ -43,6 +44,12 @@ std::map<std::string, double> facts_of(const fem::LoadedMeshResult& solved) {
     facts["worst_scaled_jacobian"] =
         std::min(solved.planet_sector.worst_scaled_jacobian(), solved.wheel_sector.worst_scaled_jacobian());
   }
+  for (const auto& [body, stress, errors] :
+       {std::tuple{model.planet_body, &fem::LoadedPosition::planet_stress, &solved.planet_stress_error},
+        {model.wheel_body, &fem::LoadedPosition::wheel_stress, &solved.wheel_stress_error}})
+    if (std::any_of(solved.positions.begin(), solved.positions.end(),
+                    [m = stress](const fem::LoadedPosition& p) { return (p.*m).has_value(); }))
+      for (const auto& [name, value] : stress_columns) facts[stress_error_fact(body, name)] = errors->*value;
   if (solved.pin_stiffness > 0) facts["pin_stiffness_N_per_m"] = solved.pin_stiffness;
   return facts;
 }
@@ -208,6 +215,24 @@ double MeshResult::fact(const std::string& name) const {
   return found == facts.end() ? not_known : found->second;
 }
 
+std::optional<Estimate> MeshResult::largest_stress(const std::string& body, const std::string& kind) const {
+  const auto column = fmt::format("{}_{}_MPa", body, kind);
+  const auto found = peak(column);
+  if (!found || !std::isfinite(found->value) || found->value == 0) return std::nullopt;
+  const double sign = found->value < 0 ? -1 : 1, size = std::abs(found->value);
+  const auto value = positions.column(column), load = positions.column("load_N"),
+             phase = positions.column("mesh_phase");
+  std::vector<double> values;  // in the order of the mesh cycles
+  for (const auto& row : positions.rows)
+    if (row[load] == table.loads()[nominal] && row[phase] < 1) values.push_back(sign * row[value]);
+  Estimate result{1e6 * found->value, 0, {}};
+  result.parts.discretisation = fact(stress_error_fact(body, kind)) / (1e6 * size);
+  result.parts.interpolation = beyond_the_highest(values) / size;
+  result.parts.model = mean_stiffness().parts.model;  // plane strain in a face of finite width changes both
+  result.error_relative = result.parts.total();
+  return result;
+}
+
 std::optional<Peak> MeshResult::peak(const std::string& column) const {
   if (std::find(positions.columns.begin(), positions.columns.end(), column) == positions.columns.end())
     return std::nullopt;
@@ -244,7 +269,7 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
                     .pressure = pressure_table(model, solved),
                     .line_load = line_load_table(model, solved),
                     .stress = stress_table(model, solved),
-                    .facts = facts_of(solved),
+                    .facts = facts_of(model, solved),
                     .nominal = model.nominal_load()};
   const std::vector<std::string> keys = {"load_N", "mesh_phase"};  // by which rows are found
   result.positions.round(keys);

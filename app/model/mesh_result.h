@@ -71,6 +71,9 @@ struct MeshResult {
   /// Largest less smallest secant stiffness over the mean one, in the same way.
   [[nodiscard]] Estimate stiffness_ripple() const;
   [[nodiscard]] double fact(const std::string& name) const;  ///< NaN when not known
+  /// Pa: the largest over all positions at the nominal load of one of stress_columns, "root_tension". Nothing for a
+  /// body without it.
+  [[nodiscard]] std::optional<Estimate> largest_stress(const std::string& body, const std::string& kind) const;
   /// Of a column of `positions`; nothing when there is no such column.
   [[nodiscard]] std::optional<Peak> peak(const std::string& column) const;
 };

@@ -33,12 +33,6 @@ void at_nominal_load(const MeshModel& model, const fem::LoadedMeshResult& solved
   }
 }
 
-/// Stresses of a body by their names in columns.
-constexpr std::pair<const char*, double fem::BodyStress::*> stress_columns[] = {
-    {"root_tension", &fem::BodyStress::root_tension},       {"root_compression", &fem::BodyStress::root_compression},
-    {"root_von_mises", &fem::BodyStress::root_von_mises},   {"rim_tension", &fem::BodyStress::rim_tension},
-    {"rim_compression", &fem::BodyStress::rim_compression}, {"rim_von_mises", &fem::BodyStress::rim_von_mises}};
-
 /// A column of positions and loads.
 struct PositionColumn {
   std::string name;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <utility>
+
 #include "app/plan/mesh_model.h"
 #include "core/csv.h"
 #include "fem/loaded_mesh.h"
@@ -7,6 +10,17 @@
 /// The files of one solved mesh as tables: units in the column names, tooth pairs and pins counted from 1, the wheel
 /// called sun or ring. A table of something the solution does not have is empty.
 namespace annulus::app {
+
+/// Stresses of a body by their names in columns, "sun_root_tension_MPa".
+inline constexpr std::pair<const char*, double fem::BodyStress::*> stress_columns[] = {
+    {"root_tension", &fem::BodyStress::root_tension},       {"root_compression", &fem::BodyStress::root_compression},
+    {"root_von_mises", &fem::BodyStress::root_von_mises},   {"rim_tension", &fem::BodyStress::rim_tension},
+    {"rim_compression", &fem::BodyStress::rim_compression}, {"rim_von_mises", &fem::BodyStress::rim_von_mises}};
+
+/// The estimated error of the largest one, Pa, among MeshResult::facts.
+[[nodiscard]] inline std::string stress_error_fact(const std::string& body, const std::string& stress) {
+  return body + "_" + stress + "_error_Pa";
+}
 
 /// lte_<mesh>.csv: every position and load, with load shares and invariants, and the face load factor and the largest
 /// stresses where they are known.

@@ -138,6 +138,8 @@ struct NamedOutcome {
 [[nodiscard]] double mean_at_load(const StiffnessTable& table, std::size_t load, double StiffnessEntry::*stiffness);
 // contact.cc
 [[nodiscard]] Section contact_section(const NamedMeshes& meshes);  ///< face width, pressure, stress
+/// Local stresses and pressures beside the nominal ones of ISO 6336; empty without computed ones.
+[[nodiscard]] Blocks beside_iso_6336(const NamedMeshes& meshes);
 
 // studies.cc, sweeps.cc, grids.cc, spread.cc, sensitivity.cc, optimise.cc
 /// All studies but the samples, in their order on the page.

@@ -128,7 +128,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   const auto solve = [&](int cycle, int phase, int load, ContactSystem::PairsCache& cache,
                          ContactSystem::WarmStart& warm) {
     ContactForces forces;
-    const bool stresses = accept && load == static_cast<int>(problem.loads.size() / 2);
+    const bool stresses = load == static_cast<int>(problem.loads.size() / 2);
     LoadedPosition position = system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load],
                                            cache, warm, stresses ? &forces : nullptr);
     if (!stresses) return position;
@@ -140,7 +140,9 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   const bool one_cycle = problem.structure.repeating_teeth(problem.pair.wheel().teeth()) == 1;
   const double compared = accept ? compared_share(problem) : 1;
   solve_positions(problem, settings, false, one_cycle, solve, part_of(progress, 0, compared), result.positions);
-  if (accept) result.contact_error = contact_error(problem, flanks, bodies, options, result.positions);
+  result.own.planet_notch = bodies.planet_notch.error;
+  result.own.wheel_notch = bodies.wheel_notch.error;
+  if (accept) result.own.contact = contact_error(problem, flanks, bodies, options, result.positions);
   if (accept && accept(result)) {
     solve_positions(problem, settings, true, one_cycle, solve, part_of(progress, compared, 1), result.positions);
     result.stress_curves = worst_curves(problem, bodies, system, result.positions);

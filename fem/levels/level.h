@@ -5,6 +5,7 @@
 
 #include "fem/contact/contact_system.h"
 #include "fem/contact/flank_contact.h"
+#include "fem/levels/error_estimate.h"
 #include "fem/problem/loaded_mesh_problem.h"
 #include "fem/problem/loaded_mesh_result.h"
 
@@ -21,8 +22,7 @@ struct SolvedLevel : SolvedBodies, SolveCost {
   /// [cycle][phase 0 ... phases][load]: the last phase of the last cycle is the closure, inner ends of cycles are not
   /// solved twice. A stiffness of 0 marks a position that was left out.
   std::vector<LoadedPosition> positions;
-  /// Relative, of the stiffness, by the discretised pressure alone; 0 where the pressure is refined with the cells.
-  double contact_error = 0;
+  OwnErrors own{};  ///< no contact error where the pressure is refined with the cells
 };
 
 using ProgressFunction = std::function<void(double fraction)>;

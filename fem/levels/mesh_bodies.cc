@@ -92,6 +92,7 @@ class TaskMaker {
   [[nodiscard]] Task section(const BodyPlan& plan, const geometry::SectorResolution& resolution) const {
     Task task{plan.section(resolution), &plan.profile(), plan.support_radius(), {}};
     task.options.sector = plan.near_field_model();
+    task.options.sector.outputs.insert(SectorOutput::stress);
     task.options.store = settings_.store.get();
     return task;
   }
@@ -110,6 +111,11 @@ std::optional<NearField> near_field(const GearTasks& tasks) {
   };
   const GearBody &fine = tasks.fine->body, &coarse = tasks.coarse->body;
   return NearField{fine.flank, coarse.flank, compliance(fine), compliance(coarse)};
+}
+
+/// Of a plane body none: its section is the one that is solved.
+NotchFactors notch_of(const GearTasks& tasks, double poisson_ratio, int degree) {
+  return tasks.fine ? notch_factors(tasks.fine->body, tasks.coarse->body, poisson_ratio, degree) : NotchFactors{};
 }
 
 BodySource source_of(const Task& task) { return {task.mesh, task.profile, task.support_radius, task.options.sector}; }
@@ -155,13 +161,16 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     return std::make_unique<CondensedBody>(std::move(gear.body.body), base_radius, problem.material, bodies.slice_edges,
                                            std::move(near), slant);
   };
+  const double nu = problem.material.poisson_ratio;
+  bodies.planet_notch = notch_of(planet, nu, settings.degree);
+  bodies.wheel_notch = notch_of(wheel, nu, settings.degree);
   bodies.planet = condensed(planet, pair.pinion().base_radius());
   bodies.wheel = condensed(wheel, pair.wheel().base_radius());
   if (supports) bodies.supports = std::make_unique<SupportRow>(std::move(*supports), bodies.wheel->body());
-  const double nu = problem.material.poisson_ratio;
-  bodies.planet_stress = std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width, nu, nullptr);
-  bodies.wheel_stress =
-      std::make_unique<StressRecovery>(bodies.wheel->body(), problem.face_width, nu, bodies.supports.get());
+  bodies.planet_stress =
+      std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width, nu, nullptr, bodies.planet_notch);
+  bodies.wheel_stress = std::make_unique<StressRecovery>(bodies.wheel->body(), problem.face_width, nu,
+                                                         bodies.supports.get(), bodies.wheel_notch);
   bodies.condense_seconds = condensing.seconds();
   return bodies;
 }

@@ -20,6 +20,7 @@ struct MeshBodies : SolveCost {
   std::unique_ptr<CondensedBody> planet, wheel;
   std::unique_ptr<SupportRow> supports;  ///< of a floating ring
   std::unique_ptr<StressRecovery> planet_stress, wheel_stress;
+  NotchFactors planet_notch, wheel_notch;
   BodySource planet_source, wheel_source;
   SolvedFace face;
   std::vector<double> slice_edges;             ///< m, of the solved part of the face

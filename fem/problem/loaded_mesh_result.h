@@ -36,6 +36,10 @@ struct BodyStress {
   double rim_tension = 0, rim_compression = 0, rim_von_mises = 0;     ///< on the other side of the rim
 };
 
+inline constexpr double BodyStress::*stress_values[] = {&BodyStress::root_tension,    &BodyStress::root_compression,
+                                                        &BodyStress::root_von_mises,  &BodyStress::rim_tension,
+                                                        &BodyStress::rim_compression, &BodyStress::rim_von_mises};
+
 /// One position of the mesh under one load.
 struct LoadedPosition {
   double mesh_phase = 0;  ///< [0, 1], 1 included once as the closure check
@@ -119,6 +123,9 @@ struct LoadedMeshResult : SolvedBodies, SolveCost {
   int degree = 2;                         ///< of the elements of that level
   /// Largest estimated error at the middle load, plane strain not counted: what the accuracy is about.
   double worst_error_relative = 0;
+  /// Estimated errors by discretisation of the largest stresses over all positions, Pa, positive. NaN where two levels
+  /// did not have them.
+  BodyStress planet_stress_error{}, wheel_stress_error{};
 };
 
 /// The stiffness table of solved positions, with closure and reciprocity. `positions`: [cycle][phase][load] over all

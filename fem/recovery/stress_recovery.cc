@@ -27,11 +27,12 @@ StressRecovery::Line join(const StressRecovery::Line& first, const StressRecover
 }  // namespace
 
 StressRecovery::StressRecovery(const GearBody& body, double face_width, double poisson_ratio,
-                               const SupportRow* supports)
+                               const SupportRow* supports, const NotchFactors& notch)
     : body_(body),
       supports_(supports),
       per_width_(body.axial_stations() > 1 ? 1 : 1 / face_width),
       poisson_ratio_(poisson_ratio),
+      notch_(notch),
       first_load_(body.root_low.first_load),
       loads_(body.root_low.loads() + body.root_high.loads() + body.rim.loads()) {
   require(body.root_low.points() > 1 && body.root_high.points() > 1, "a body that was not asked for its stresses");
@@ -109,6 +110,11 @@ StressRecovery::Result StressRecovery::stresses(const std::vector<ToothForces>& 
     const auto next = after(sector);
     if (next == observed.end()) continue;
     Line root = join(on_sector(body_.root_high, values), on_sector(body_.root_low, next->second));
+    for (Eigen::Index i = 0; i < root.tangential.size(); ++i) {
+      const double factor = root.tangential.data()[i] < 0 ? notch_.compression : notch_.tension;
+      root.tangential.data()[i] *= factor;
+      root.von_mises.data()[i] *= factor;
+    }
     largest.root_tension = std::max(largest.root_tension, root.tangential.maxCoeff());
     largest.root_compression = std::min(largest.root_compression, root.tangential.minCoeff());
     if (root.von_mises.maxCoeff() <= largest.root_von_mises) continue;
@@ -125,6 +131,31 @@ StressRecovery::Result StressRecovery::stresses(const std::vector<ToothForces>& 
   largest.rim_compression = std::min(0.0, result.rim.tangential.minCoeff());
   largest.rim_von_mises = result.rim.von_mises.maxCoeff();
   return result;
+}
+
+NotchFactors notch_factors(const GearBody& fine, const GearBody& coarse, double poisson_ratio, int degree) {
+  // The same forces on both flanks, of which each has its own nodes.
+  const auto under = [&](const GearBody& section, double part) {
+    const auto& flank = section.flank;
+    const auto at = flank(flank.low() + part * (flank.high() - flank.low()));
+    ToothForces force{0, Eigen::VectorXd::Zero(section.flank_ports())};
+    for (std::size_t k = 0; k < at.weights.size(); ++k) force.ports[at.first + static_cast<int>(k)] = at.weights[k];
+    return StressRecovery(section, 1, poisson_ratio, nullptr).stresses({force}, {}).largest;
+  };
+  NotchFactors factors;
+  double largest = 0;
+  for (const double part : {0.2, 0.4, 0.6, 0.8}) {
+    const auto exact = under(fine, part), rough = under(coarse, part);
+    if (exact.root_tension <= largest) continue;
+    largest = exact.root_tension;
+    factors = {exact.root_tension / rough.root_tension, exact.root_compression / rough.root_compression};
+  }
+  // Cells of a solid do not miss exactly what cells of a plane section miss. Measured against the finest level of solid
+  // elements (spur teeth, 2 to 15 modules wide): up to 0.06 of the correction with linear elements, and 0.47 of the
+  // small one with quadratic elements.
+  const double left = degree == 1 ? 0.15 : 0.5;
+  factors.error = left * std::max(std::abs(factors.tension - 1), std::abs(factors.compression - 1));
+  return factors;
 }
 
 }  // namespace annulus::fem

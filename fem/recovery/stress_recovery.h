@@ -12,6 +12,13 @@
 
 namespace annulus::fem {
 
+/// What a finer section adds to the stresses in a fillet, as factors: cells of a solid body follow its curve with too
+/// few points.
+struct NotchFactors {
+  double tension = 1, compression = 1;
+  double error = 0;  ///< relative, of what they multiply
+};
+
 /// Surface stresses of a whole body under given forces on its teeth and supports.
 ///
 /// A stress is a functional of the displacement and thereby one more load of the condensed body: by reciprocity it
@@ -20,8 +27,9 @@ namespace annulus::fem {
 class StressRecovery {
  public:
   /// `body` has stress lines and is referred to, `supports` may be null. Plane bodies are looked at all around, solid
-  /// ones a few teeth to either side of the forces.
-  StressRecovery(const GearBody& body, double face_width, double poisson_ratio, const SupportRow* supports);
+  /// ones a few teeth to either side of the forces. Stresses in roots are multiplied by the factors.
+  StressRecovery(const GearBody& body, double face_width, double poisson_ratio, const SupportRow* supports,
+                 const NotchFactors& notch = {});
 
   /// The stresses of one line of the body: the root of a tooth space, or the whole rim.
   struct Line {
@@ -46,7 +54,13 @@ class StressRecovery {
   const GearBody& body_;
   const SupportRow* supports_;
   double per_width_, poisson_ratio_;
+  NotchFactors notch_;
   int first_load_, loads_;
 };
+
+/// The largest stresses in the root of plane section `fine` over those in `coarse`, both under the same force on the
+/// flank, where that stresses the root most. `degree` of the elements of the body that they correct.
+[[nodiscard]] NotchFactors notch_factors(const GearBody& fine, const GearBody& coarse, double poisson_ratio,
+                                         int degree);
 
 }  // namespace annulus::fem

@@ -246,9 +246,9 @@ BOOST_AUTO_TEST_CASE(three_levels_tell_how_much_is_left_of_a_series) {
     settings.degree = degree;
     const auto first = series(q, 0);
     auto second = series(q, 1), last = series(q, 2);
-    const auto before = estimate_errors(problem, settings, 0, first, second);
+    const auto before = estimate_errors(problem, settings, {}, first, second);
     const auto errors =
-        estimate_errors(problem, settings, 0, second, last, third ? std::optional(before.difference) : std::nullopt);
+        estimate_errors(problem, settings, {}, second, last, third ? std::optional(before.difference) : std::nullopt);
     const double error = 1 - 1 / last.front().entry.stiffness_secant;
     return errors.worst / error;
   };
