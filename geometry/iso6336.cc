@@ -83,11 +83,10 @@ double contact_ratio_factor(const GearPair& pair) {
   return std::sqrt((4 - pair.contact_ratio()) / 3);
 }
 
-double nominal_flank_pressure(const GearPair& pair, double tangential_force, double youngs_modulus,
-                              double poisson_ratio) {
+double nominal_flank_pressure(const GearPair& pair, double tangential_force, double contact_modulus) {
   const double working = pair.working_pressure_angle(), cosine = std::cos(pair.pinion().parameters().pressure_angle);
   const double zone = std::sqrt(2 * std::cos(working) / (cosine * cosine * std::sin(working)));
-  const double elasticity = std::sqrt(youngs_modulus / (2 * std::numbers::pi * (1 - poisson_ratio * poisson_ratio)));
+  const double elasticity = std::sqrt(contact_modulus / std::numbers::pi);
   const double u = iso_teeth(pair.wheel()) / pair.pinion().teeth();
   const double diameter = 2 * pair.pinion().reference_radius();
   return zone * elasticity * contact_ratio_factor(pair) *

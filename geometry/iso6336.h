@@ -39,9 +39,9 @@ struct Iso6336Stiffness {
 [[nodiscard]] Iso6336Stiffness iso_6336_stiffness(const GearPair& pair, const Iso6336Bodies& bodies = {});
 
 /// sigma_H0 = Z_H Z_E Z_epsilon sqrt(F_t / (d_1 b) (u + 1) / u) [ISO6336-2], Pa: pressure at the pitch point under the
-/// nominal force F_t (N) at the reference circle. u is negative for internal pairs. Both gears have the same material.
-[[nodiscard]] double nominal_flank_pressure(const GearPair& pair, double tangential_force, double youngs_modulus,
-                                            double poisson_ratio);
+/// nominal force F_t (N) at the reference circle. u is negative for internal pairs. `contact_modulus`: E* of both
+/// materials, Z_E^2 = E* / pi.
+[[nodiscard]] double nominal_flank_pressure(const GearPair& pair, double tangential_force, double contact_modulus);
 /// Z_epsilon = sqrt((4 - epsilon_alpha) / 3) [ISO6336-2]: mean share of a tooth pair in the force at the pitch point.
 [[nodiscard]] double contact_ratio_factor(const GearPair& pair);
 

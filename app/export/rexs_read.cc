@@ -192,6 +192,7 @@ class Filler {
          {std::pair{"tip_diameter_mm", "tip_diameter"}, {"root_diameter_mm", "root_diameter"}})
       if (const auto value = file_.number(c, name, "mm")) put(table + "." + key, std::abs(*value));
     put(table + ".mass_kg", file_.number(c, "mass_of_component", "kg"));
+    material(c, table);
     custom(c, table);
   }
 
@@ -204,17 +205,26 @@ class Filler {
     for (const auto& part : file_.related("flank", "gear", c.id, {"left", "right"}))
       put("stage.pressure_angle_deg", file_.number(part, "normal_pressure_angle", "deg"));
     if (centre_distance) put("stage.centre_distance_mm", std::abs(*centre_distance));
-    for (const auto& m : file_.related("reference", "origin", c.id, {"referenced"})) {
-      if (m.type != "material") continue;
-      if (const auto modulus = file_.number(m, "elastic_modulus", "N / mm^2"))
-        put("material.youngs_modulus_GPa", *modulus / 1e3);
-      put("material.poisson_ratio", file_.number(m, "poisson_ratio", "none"));
-      if (const auto density = file_.number(m, "density", "kg / dm^3"))
-        put("material.density_kg_per_m3", *density * 1e3);
-    }
+    material(c, "material");
   }
 
  private:
+  /// Of a gear, into `table`: [material], or what the gear has otherwise.
+  void material(const Component& c, const std::string& table) {
+    const auto own = [&](const char* key, std::optional<double> value, double factor) {
+      if (!value) return;
+      const auto common = scene_.values.find(std::string("material.") + key);
+      const auto text = toml_text(Value(*value * factor));
+      if (common == scene_.values.end() || common->second.text != text) scene_.values[table + "." + key] = {text, ""};
+    };
+    for (const auto& m : file_.related("reference", "origin", c.id, {"referenced"})) {
+      if (m.type != "material") continue;
+      own("youngs_modulus_GPa", file_.number(m, "elastic_modulus", "N / mm^2"), 1e-3);
+      own("poisson_ratio", file_.number(m, "poisson_ratio", "none"), 1);
+      own("density_kg_per_m3", file_.number(m, "density", "kg / dm^3"), 1e3);
+    }
+  }
+
   const RexsFile& file_;
   RexsScene& scene_;
 };

@@ -101,7 +101,8 @@ bool known_to_rexs(const std::string& key) {
                                       "material.density_kg_per_m3",
                                       "carrier.mass_kg"};
   if (std::find(std::begin(known), std::end(known), key) != std::end(known)) return true;
-  for (const char* name : {".name", ".teeth", ".profile_shift", ".mass_kg", ".tip_diameter_mm", ".root_diameter_mm"})
+  for (const char* name : {".name", ".teeth", ".profile_shift", ".mass_kg", ".tip_diameter_mm", ".root_diameter_mm",
+                           ".youngs_modulus_GPa", ".poisson_ratio", ".density_kg_per_m3"})
     if (key.ends_with(name)) return true;
   return false;
 }
@@ -120,9 +121,18 @@ void custom_attributes(Rexs::Component& component, const Scene& scene, const std
   }
 }
 
+Rexs::Component material_component(Rexs& rexs, const fem::Material& of) {
+  auto material = rexs.component("material", "material");
+  material.attribute("elastic_modulus", "N / mm^2", of.youngs_modulus / 1e6);
+  material.attribute("poisson_ratio", "none", of.poisson_ratio);
+  material.attribute("density", "kg / dm^3", of.density / 1e3);
+  return material;
+}
+
 /// A gear with its material, and both its flanks, which have pressure angle and profile shift.
 Rexs::Component gear(Rexs& rexs, const Scene& scene, const std::string& name, const GearInput& input,
-                     const geometry::Gear& gear, const Rexs::Component& material) {
+                     const geometry::Gear& gear) {
+  const auto material = material_component(rexs, material_of(scene, input));
   const bool internal = gear.kind() == geometry::GearKind::internal;
   auto component = rexs.component(internal ? "ring_gear" : "cylindrical_gear", name);
   // REXS follows DIN ISO 21771: the number of teeth of an internal gear is negative, and so a profile shift that
@@ -160,14 +170,6 @@ void stage(Rexs& rexs, const std::string& name, double centre_distance, const Re
   rexs.relation("stage", roles);
 }
 
-Rexs::Component material_component(Rexs& rexs, const Scene& scene) {
-  auto material = rexs.component("material", "material");
-  material.attribute("elastic_modulus", "N / mm^2", scene.material.youngs_modulus / 1e6);
-  material.attribute("poisson_ratio", "none", scene.material.poisson_ratio);
-  material.attribute("density", "kg / dm^3", scene.material.density / 1e3);
-  return material;
-}
-
 /// Those that belong to the stage as a whole.
 const std::vector<std::string> stage_tables = {"stage",           "errors",           "supports",         "dynamics",
                                                "mesh.sun_planet", "mesh.ring_planet", "mesh.pinion_wheel"};
@@ -180,13 +182,12 @@ std::string rexs_text(const Scene& scene, const std::string& ring) {
                      ": REXS has no arc-tooth gears; only planetary stages and pairs can be exported");
   Rexs rexs;
   auto unit = rexs.component("gear_unit", scene.title);
-  const auto material = material_component(rexs, scene);
   if (scene.stage.kind == "helical_pair") {
     custom_attributes(unit, scene, stage_tables);
-    auto pinion = gear(rexs, scene, "pinion", scene.pinion,
-                       make_gear(scene, scene.pinion, geometry::GearKind::external, 1), material);
-    auto wheel = gear(rexs, scene, "wheel", scene.wheel,
-                      make_gear(scene, scene.wheel, geometry::GearKind::external, -1), material);
+    auto pinion =
+        gear(rexs, scene, "pinion", scene.pinion, make_gear(scene, scene.pinion, geometry::GearKind::external, 1));
+    auto wheel =
+        gear(rexs, scene, "wheel", scene.wheel, make_gear(scene, scene.wheel, geometry::GearKind::external, -1));
     custom_attributes(pinion, scene, {"pinion"});
     custom_attributes(wheel, scene, {"wheel"});
     stage(rexs, "pinion - wheel", pair_centre_distance(scene), unit, nullptr, pinion, wheel);
@@ -208,12 +209,12 @@ std::string rexs_text(const Scene& scene, const std::string& ring) {
   if (scene.carrier.mass) carrier.attribute("mass_of_component", "kg", *scene.carrier.mass);
   custom_attributes(carrier, scene, {"carrier"});
   rexs.relation("assembly", {{"assembly", &unit}, {"part", &carrier}});
-  auto sun = gear(rexs, scene, "sun", scene.sun, set.sun_mesh().wheel(), material);
+  auto sun = gear(rexs, scene, "sun", scene.sun, set.sun_mesh().wheel());
   custom_attributes(sun, scene, {"sun"});
-  auto annulus = gear(rexs, scene, "ring " + found->name, *found, set.ring_mesh().wheel(), material);
+  auto annulus = gear(rexs, scene, "ring " + found->name, *found, set.ring_mesh().wheel());
   custom_attributes(annulus, scene, {"ring"}, found->name);
   for (int n = 1; n <= scene.stage.planets; ++n) {
-    auto planet = gear(rexs, scene, fmt::format("planet {}", n), scene.planet, set.sun_mesh().pinion(), material);
+    auto planet = gear(rexs, scene, fmt::format("planet {}", n), scene.planet, set.sun_mesh().pinion());
     custom_attributes(planet, scene, {"planet"});
     const double distance = scene.stage.centre_distance;
     stage(rexs, fmt::format("sun - planet {}", n), distance, unit, &planetary, sun, planet);

@@ -23,7 +23,7 @@ double uptake_of(const MeshModel& model) {
   if (!model.problem) return 0;
   constexpr double most = 0.5, force = 1;  // N
   return most * fem::load_uptake(force, model.problem->face_width, model.problem->pair.pinion().parameters().module,
-                                 model.problem->material.youngs_modulus);
+                                 model.problem->materials.youngs_modulus());
 }
 
 }  // namespace

@@ -25,6 +25,12 @@ geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::G
   return geometry::Gear(gear_parameters(scene, input, kind, hand));
 }
 
+fem::Material material_of(const Scene& scene, const GearInput& gear) {
+  const auto& common = scene.material;
+  return {gear.youngs_modulus.value_or(common.youngs_modulus), gear.poisson_ratio.value_or(common.poisson_ratio),
+          gear.density.value_or(common.density)};
+}
+
 double outside_radius(const Scene& scene, const RingInput& ring) {
   if (ring.outside_diameter) return *ring.outside_diameter / 2;
   return make_gear(scene, ring, geometry::GearKind::internal).root_radius() + ring.rim_thickness.value_or(0);

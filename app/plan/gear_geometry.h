@@ -6,6 +6,7 @@
 #include "app/plan/operating_point.h"
 #include "app/scene/scene.h"
 #include "core/errors.h"
+#include "fem/problem/material.h"
 #include "geometry/planetary.h"
 
 namespace annulus::app {
@@ -41,6 +42,9 @@ auto geometry_of(const std::string& name, Make make) {
                                                        geometry::GearKind kind, int hand = 1);
 [[nodiscard]] geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::GearKind kind,
                                        int hand = 1);
+
+/// What a gear is made of: [material], where it does not have a value of its own.
+[[nodiscard]] fem::Material material_of(const Scene& scene, const GearInput& gear);
 
 /// m. Throws GeometryError when it follows from a gear that cannot exist.
 [[nodiscard]] double outside_radius(const Scene& scene, const RingInput& ring);

@@ -117,7 +117,8 @@ std::string MeshModel::id() const {
     add_gear(id, "wheel", problem->pair.wheel());
     id.add("centre_distance", problem->pair.centre_distance());
     id.add("pinion_drives", problem->pair.driver() == geometry::Driver::pinion ? 1.0 : 0.0);
-    id.add("E", problem->material.youngs_modulus).add("nu", problem->material.poisson_ratio);
+    for (const auto* material : {&problem->materials.planet, &problem->materials.wheel})
+      id.add("E", material->youngs_modulus).add("nu", material->poisson_ratio);
     id.add("face_width", problem->face_width).add("planet_bore", problem->planet_bore_radius);
     id.add("wheel_support", problem->wheel_support_radius).add("phases", problem->phases);
     id.add("misalignment", problem->misalignment);
@@ -152,7 +153,7 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
     return model;
   }
   model.problem = {.pair = mesh.pair,
-                   .material = {scene.material.youngs_modulus, scene.material.poisson_ratio, scene.material.density},
+                   .materials = {material_of(scene, mesh.planet), material_of(scene, mesh.wheel)},
                    .face_width = scene.stage.face_width,
                    .planet_bore_radius = mesh.planet.bore_diameter.value_or(0) / 2,
                    .wheel_support_radius = mesh.wheel_support_diameter.value_or(0) / 2,

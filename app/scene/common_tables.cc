@@ -59,12 +59,14 @@ Table stage_table() {
 }
 
 Table material_table() {
-  Declarations material("material", "Material of all gears.", &Scene::material);
+  Declarations material("material", "Material of all gears; a gear may have its own.", &Scene::material);
   material.key("youngs_modulus_GPa", &MaterialInput::youngs_modulus, "Young's modulus.").required().from(1e-6, 2000);
   material.key("poisson_ratio", &MaterialInput::poisson_ratio, "Poisson's ratio.")
       .fallback(0.3, "steel")
       .from(0, 0.4999);
-  material.key("density_kg_per_m3", &MaterialInput::density, "Density; only used to check masses.")
+  material
+      .key("density_kg_per_m3", &MaterialInput::density,
+           "Density: for modes of a ring and moments of inertia that are not given.")
       .fallback(7850.0, "steel")
       .from(100, 30000);
   return material.done();

@@ -68,6 +68,17 @@ void declare_teeth(Declarations<Section>& t, Flanks flanks, const char* mate = n
   declare_shift_sources(t, flanks, mate);
 }
 
+/// youngs_modulus_GPa, poisson_ratio and density_kg_per_m3 of a gear that is not made of [material].
+template <class Section>
+void declare_own_material(Declarations<Section>& t) {
+  const char* common = "that of [material]";
+  t.key("youngs_modulus_GPa", &Section::youngs_modulus, "Young's modulus of this gear.")
+      .from(1e-6, 2000)
+      .absent(common);
+  t.key("poisson_ratio", &Section::poisson_ratio, "Poisson's ratio of this gear.").from(0, 0.4999).absent(common);
+  t.key("density_kg_per_m3", &Section::density, "Density of this gear.").from(100, 30000).absent(common);
+}
+
 /// mass_kg
 template <class Section>
 Declared declare_mass(Declarations<Section>& t, const char* meaning = "Mass.") {

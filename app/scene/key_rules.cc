@@ -248,15 +248,15 @@ class RuleChecker : KeyChecks {
 
   /// Of a group that one of its keys declares.
   void check_group(const Parameter& p, std::size_t entry) {
-    if (p.one_of.empty()) return;
-    auto group = p.one_of;
+    if (p.one_of.empty() && p.some_of.empty()) return;
+    auto group = p.one_of.empty() ? p.some_of : p.one_of;
     group.insert(group.begin(), p.name);
     std::vector<std::string> found;
     for (const auto& name : group)
       if (keys_.given(p.table + "." + name, entry)) found.push_back(name);
     if (found.empty())
       problem(p.key(), entry, fmt::format("one of {} is required", fmt::join(group, ", ")));
-    else if (found.size() > 1)
+    else if (found.size() > 1 && !p.one_of.empty())
       problem(p.table + "." + found.back(), entry,
               fmt::format("is given beside {}; give one of {}", found.front(), fmt::join(group, ", ")));
   }

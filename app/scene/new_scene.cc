@@ -40,13 +40,20 @@ std::string facts(const Parameter& p) {
   return text;
 }
 
+/// Whether one key of the group that this one declares has to be written, and none is.
+bool group_is_missing(const Parameter& p, const NewValues& values) {
+  const auto& others = p.one_of.empty() ? p.some_of : p.one_of;
+  const auto is_given = [&](const std::string& name) { return values.count(p.table + "." + name) > 0; };
+  return !others.empty() && !is_given(p.name) && std::none_of(others.begin(), others.end(), is_given);
+}
+
 std::string key_lines(const Parameter& p, const NewValues& values) {
   const std::string text = comment(p.meaning + " (" + facts(p) + ")");
   if (const auto given = values.find(p.key()); given != values.end()) {
     const auto& [value, remark] = given->second;
     return text + p.name + " = " + value + (remark.empty() ? "" : "    # " + remark) + "\n";
   }
-  const bool required = p.presence == Parameter::Presence::required;
+  const bool required = p.presence == Parameter::Presence::required || group_is_missing(p, values);
   const bool defaulted = p.presence == Parameter::Presence::defaulted;
   return text + "# " + p.name + " =" +
          (required    ? "      <- to be filled in"

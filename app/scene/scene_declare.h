@@ -80,6 +80,8 @@ class Declared {
   Declared& instead_of(std::vector<std::string> keys) { return p_.instead_of = std::move(keys), *this; }
   /// Exactly one of this key and `keys` is given.
   Declared& one_of(std::vector<std::string> keys) { return p_.one_of = std::move(keys), *this; }
+  /// At least one of this key and `keys` is given.
+  Declared& some_of(std::vector<std::string> keys) { return p_.some_of = std::move(keys), *this; }
   /// An earlier name, refused with the present one.
   Declared& formerly(std::string name) { return p_.old_names.push_back(std::move(name)), *this; }
 

@@ -104,6 +104,7 @@ std::vector<std::string> rule_texts(const Parameter& p) {
   for (const auto& rule : p.refused_if) list.push_back(rule_text("refused beside ", rule, p.table));
   for (const auto& name : p.together_with) list.push_back("together with " + name);
   if (!p.one_of.empty()) list.push_back(fmt::format("exactly one of this, {}", listed(p.one_of)));
+  if (!p.some_of.empty()) list.push_back(fmt::format("at least one of this, {}", listed(p.some_of)));
   if (!p.instead_of.empty()) list.push_back("either this or " + listed(p.instead_of));
   return list;
 }

@@ -50,6 +50,7 @@ struct Parameter {
   std::vector<std::string> together_with{};  ///< keys of the table that are given with this one or not at all
   std::vector<std::string> instead_of{};     ///< either this key or all of these, where the conditions hold
   std::vector<std::string> one_of{};         ///< exactly one of this key and these is given
+  std::vector<std::string> some_of{};        ///< at least one of this key and these is given
   bool default_where_it_applies = false;     ///< the default holds only where `only_if` does
 
   /// Stores a checked value (in file units) into the scene; the index counts the tables of an array ([[ring]]).

@@ -89,7 +89,7 @@ Blocks beside_iso_6336(const NamedMeshes& meshes) {
       flanks.rows.push_back(
           {name, in_MPa(pressure),
            in_MPa(geometry::nominal_flank_pressure(problem.pair, MeshedGear{*mesh, true}.tangential_force(),
-                                                   problem.material.youngs_modulus, problem.material.poisson_ratio))});
+                                                   problem.materials.contact_modulus()))});
   }
   if (roots.rows.empty() && flanks.rows.empty()) return {};
   Blocks blocks = heading("Beside ISO 6336");

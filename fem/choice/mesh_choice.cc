@@ -86,7 +86,7 @@ MeshChoice choose_mesh(LoadedMeshProblem& problem, const std::string& why_solid,
   choice.positions = problem.structure.repeating_teeth(pair.wheel().teeth());
   choice.repeats = repeats_text(problem, choice.positions);
   const double uptake = load_uptake(wish.mean_force, problem.face_width, pair.pinion().parameters().module,
-                                    problem.material.youngs_modulus);
+                                    problem.materials.youngs_modulus());
   auto table = table_resolution(wish.accuracy, uptake, pair.overlap_ratio());
   problem.phases = table.phases;
   for (const double factor : table.load_factors) problem.loads.push_back(factor * wish.mean_force);

@@ -23,7 +23,7 @@ constexpr double linear_accuracy = 0.01;
 /// where they say 9.3 %).
 std::string unfit_for_linear(const LoadedMeshProblem& problem) {
   constexpr double nearly_incompressible = 0.4, thin_rim = 2.5, slender_sleeve = 0.3;
-  if (problem.material.poisson_ratio > nearly_incompressible)
+  if (problem.materials.larger_poisson_ratio() > nearly_incompressible)
     return fmt::format("linear ones are too stiff where Poisson's ratio exceeds {}", nearly_incompressible);
   const auto sleeve = problem.structure.body(problem.wheel_support_radius).sleeve;
   if (!sleeve) return "";

@@ -38,11 +38,11 @@ class ClosedFormRun {
       : problem_(problem),
         flanks_(problem.pair),
         supports_(ring_supports(problem.structure, problem.wheel_support_radius, problem.face_width,
-                                problem.pair.wheel().teeth(), problem.material)),
-        planet_(flanks_.pinion(), problem.planet_bore_radius, problem.face_width, problem.material, {}, rim,
+                                problem.pair.wheel().teeth(), problem.materials.wheel)),
+        planet_(flanks_.pinion(), problem.planet_bore_radius, problem.face_width, problem.materials.planet, {}, rim,
                 neighbours),
-        wheel_(flanks_.wheel(), problem.wheel_support_radius, problem.face_width, problem.material, supports_, rim,
-               neighbours) {}
+        wheel_(flanks_.wheel(), problem.wheel_support_radius, problem.face_width, problem.materials.wheel, supports_,
+               rim, neighbours) {}
 
   [[nodiscard]] const std::vector<RingSupport>& supports() const { return supports_; }
 
@@ -50,7 +50,7 @@ class ClosedFormRun {
     const int loads = static_cast<int>(problem_.loads.size()), phases = problem_.phases;
     std::vector<LoadedPosition> positions(static_cast<std::size_t>(cycles * phases + 1) * loads);
     for (int phase = 0; phase <= phases; ++phase) {
-      const ToothContacts contacts = find_contacts(flanks_, planet_, wheel_, problem_.material, problem_.face_width,
+      const ToothContacts contacts = find_contacts(flanks_, planet_, wheel_, problem_.materials, problem_.face_width,
                                                    static_cast<double>(phase) / phases);
       for (int load = 0; load < loads; ++load) {
         std::vector<bool> start;  // the supports of the cycle before

@@ -9,7 +9,10 @@
 namespace annulus::fem {
 namespace {
 
-double effective_modulus(const Material& m) { return m.youngs_modulus / (2 * (1 - m.poisson_ratio * m.poisson_ratio)); }
+/// 2 (1 - nu^2) / (pi E) of one body, m per N/m.
+double local_compliance(const Material& m) {
+  return 2 * (1 - m.poisson_ratio * m.poisson_ratio) / (M_PI * m.youngs_modulus);
+}
 
 /// B of a half space and its derivative by ln(a).
 std::pair<double, double> half_space(double depth, double a, double poisson_ratio) {
@@ -36,37 +39,39 @@ std::pair<double, double> edge_part(double k, double depth, double d) {
 }  // namespace
 
 LineContact::LineContact(const FlankGap& gap, const Body& planet, const Body& wheel, double tilt,
-                         const Material& material, double width)
-    : patch_(gap, tilt, effective_modulus(material)),
+                         const MeshMaterials& materials, double width)
+    : patch_(gap, tilt, materials.contact_modulus()),
       tilt_(tilt),
       width_(width),
       planet_(planet),
       wheel_(wheel),
       planet_wedge_(wedge(planet.corner)),
       wheel_wedge_(wedge(wheel.corner)),
-      material_(material) {}
+      materials_(materials) {}
 
 double LineContact::peak_pressure(const State& state, double force) const {
   return 2 * force / width_ / (M_PI * state.half_width);
 }
 
 LineContact::Increment LineContact::increment(double a, double middle, double middle_slope) const {
-  const double nu = material_.poisson_ratio;
-  const auto planet = half_space(planet_.depth, a, nu), wheel = half_space(wheel_.depth, a, nu);
-  Increment sum{planet.first + wheel.first, (planet.second + wheel.second) / a};
+  const double on_planet = local_compliance(materials_.planet), on_wheel = local_compliance(materials_.wheel);
+  const auto planet = half_space(planet_.depth, a, materials_.planet.poisson_ratio),
+             wheel = half_space(wheel_.depth, a, materials_.wheel.poisson_ratio);
+  Increment sum{on_planet * planet.first + on_wheel * wheel.first,
+                (on_planet * planet.second + on_wheel * wheel.second) / a};
   if (std::isfinite(planet_.edge)) {
     const auto [value, slope] = edge_part(planet_wedge_, planet_.depth, planet_.edge - middle);
-    sum.value += value, sum.slope -= slope * middle_slope;
+    sum.value += on_planet * value, sum.slope -= on_planet * slope * middle_slope;
   }
   if (std::isfinite(wheel_.edge)) {
     const auto [value, slope] = edge_part(wheel_wedge_, wheel_.depth, wheel_.edge + middle);
-    sum.value += value, sum.slope += slope * middle_slope;
+    sum.value += on_wheel * value, sum.slope += on_wheel * slope * middle_slope;
   }
   return sum;
 }
 
 LineContact::State LineContact::at(double force) const {
-  const double line_load = force / width_, modulus = effective_modulus(material_), local = 1 / (M_PI * modulus);
+  const double line_load = force / width_, modulus = materials_.contact_modulus();
   const double moved = M_PI * modulus / 4 * tilt_ * tilt_;
   const double a = patch_.half_width(line_load);
   const auto patch = patch_.at(a);
@@ -75,7 +80,7 @@ LineContact::State LineContact::at(double force) const {
   state.middle = patch.middle;
   const double to_edge = patch.cut > 0 ? planet_.edge - patch.middle : wheel_.edge + patch.middle;
   state.at_tip_edge = patch.cut != 0 && to_edge < a * (1 + 1e-6);
-  const double last = local * increment(a, patch.middle, 0).value + 2 * tilt_ * patch.middle - moved * a * a;
+  const double last = increment(a, patch.middle, 0).value + 2 * tilt_ * patch.middle - moved * a * a;
   state.compliance = last / width_;
 
   // By parts: int y(a) dF' = y F' - int F' y'(a) da, piece by piece.
@@ -85,7 +90,7 @@ LineContact::State LineContact::at(double force) const {
     const double moves = now.cut != 0
                              ? -now.cut
                              : (patch_.at(x * (1 + step)).middle - patch_.at(x * (1 - step)).middle) / (2 * step * x);
-    return now.line_load * (local * increment(x, now.middle, moves).slope + 2 * tilt_ * moves - 2 * moved * x);
+    return now.line_load * (increment(x, now.middle, moves).slope + 2 * tilt_ * moves - 2 * moved * x);
   };
   state.approach = last * line_load;
   double from = 0;

@@ -49,7 +49,7 @@ class LineContact {
   };
   /// `gap` of the flanks, with the tip edge of the planet at x > 0 and that of the wheel at x < 0. `tilt`: half of how
   /// the compliance of both teeth grows with x, rad per N/m of line load. `width` of the contact in m.
-  LineContact(const FlankGap& gap, const Body& planet, const Body& wheel, double tilt, const Material& material,
+  LineContact(const FlankGap& gap, const Body& planet, const Body& wheel, double tilt, const MeshMaterials& materials,
               double width);
 
   struct State {
@@ -65,7 +65,7 @@ class LineContact {
 
  private:
   struct Increment {
-    double value = 0, slope = 0;  ///< of both brackets, and by the half-width, 1/m
+    double value = 0, slope = 0;  ///< of both bodies, m per N/m, and by the half-width, per N/m
   };
   [[nodiscard]] Increment increment(double half_width, double middle, double middle_slope) const;
 
@@ -73,7 +73,7 @@ class LineContact {
   double tilt_, width_;
   Body planet_, wheel_;
   double planet_wedge_, wheel_wedge_;  // k
-  Material material_;
+  MeshMaterials materials_;
 };
 
 }  // namespace annulus::fem

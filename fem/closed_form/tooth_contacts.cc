@@ -92,7 +92,7 @@ void add_flanks_beyond(const FlankContact& flanks, const ClosedFormBody& planet,
 /// Adds the pair to the contacts. Behind the path of contact the tip of a planet may pass that of a ring, against which
 /// it is the flatter one: the gap is not convex there, and only its distance is used.
 void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
-                 const Material& material, double width, int index, double roll, ToothContacts& contacts) {
+                 const MeshMaterials& materials, double width, int index, double roll, ToothContacts& contacts) {
   const auto& pair = flanks.pair();
   const auto domain = flanks.domain(roll);
   const double nearest = flanks.nearest_roll(roll, domain);
@@ -111,12 +111,14 @@ void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const
 
   // How the compliance of both teeth grows along the flank, the depths of the contact included; a ring's own motions
   // turn all its flanks equally and are no part of it.
-  const double nu = material.poisson_ratio, local = 2 * (1 - nu * nu) / (M_PI * material.youngs_modulus * width);
+  const auto local = [&](const Material& m, double depth) {
+    return 2 * (1 - m.poisson_ratio * m.poisson_ratio) / (M_PI * m.youngs_modulus * width) * std::log(depth);
+  };
   const auto compliance = [&](double x) {
     const double at = std::sqrt(2 * flanks.pinion().gear().base_radius() * (arc(flanks.pinion(), nearest) + x));
     const auto p = planet.tooth().load(at), w = wheel.tooth().load(flanks.match(at, roll).wheel_roll);
     return p.root.dot(planet.foundation_compliance() * p.root) + w.root.dot(wheel.foundation_compliance() * w.root) +
-           (p.compliance + w.compliance) / width + local * std::log(p.depth * w.depth);
+           (p.compliance + w.compliance) / width + local(materials.planet, p.depth) + local(materials.wheel, w.depth);
   };
   const double step = 0.02 * pair.pinion().parameters().module;
   const double from = std::max(gap.low, -step), to = std::min(gap.high, step);
@@ -126,20 +128,20 @@ void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const
       {index, roll, nearest, match.gap, on_planet.root, pair.internal() ? mirrored_root(on_wheel.root) : on_wheel.root,
        (on_planet.compliance + on_wheel.compliance) / width,
        LineContact(gap, {on_planet.depth, planet_edge, tip_corner(flanks.pinion())},
-                   {on_wheel.depth, wheel_edge, tip_corner(flanks.wheel())}, tilt, material, width)});
+                   {on_wheel.depth, wheel_edge, tip_corner(flanks.wheel())}, tilt, materials, width)});
 }
 
 }  // namespace
 
 ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
-                            const Material& material, double width, double phase) {
+                            const MeshMaterials& materials, double width, double phase) {
   ToothContacts contacts;
   contacts.phase = phase;
   const auto pairs = possible_pairs(flanks, phase);
   for (const auto& [index, roll] : pairs) {
     const auto domain = flanks.domain(roll);
     if (domain.high - domain.low < shortest_overlap * flanks.pair().pinion().base_pitch()) continue;
-    add_contact(flanks, planet, wheel, material, width, index, roll, contacts);
+    add_contact(flanks, planet, wheel, materials, width, index, roll, contacts);
   }
   require(!contacts.pairs.empty(), "no tooth pair faces another");
   add_flanks_beyond(flanks, planet, wheel, pairs, contacts);

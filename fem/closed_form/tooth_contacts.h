@@ -40,7 +40,7 @@ struct ToothContacts {
 
 /// Pairs up to one base pitch before and after the theoretical path, as in the finite-element models.
 [[nodiscard]] ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& planet,
-                                          const ClosedFormBody& wheel, const Material& material, double width,
+                                          const ClosedFormBody& wheel, const MeshMaterials& materials, double width,
                                           double phase);
 
 /// Forces of all pairs and supports at one position.

@@ -13,21 +13,21 @@
 namespace annulus::fem {
 
 ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
-                             const SupportRow* supports, const Material& material, std::vector<double> slice_edges,
-                             const ContactOptions& options)
+                             const SupportRow* supports, const MeshMaterials& materials,
+                             std::vector<double> slice_edges, const ContactOptions& options)
     : face_(flanks, std::move(slice_edges), options.misalignment),
       bodies_{face_, planet, wheel, supports},
       range_(options.pairs ? *options.pairs : possible_contacts(flanks)),
-      material_(material),
+      materials_(materials),
       window_(options.window),
       half_face_(options.half_face),
-      elements_(bodies_, material_, options) {}
+      elements_(bodies_, materials_, options) {}
 
 std::shared_ptr<const ToothPairs> ContactSystem::prepare(double phase, double load, double window,
                                                          const PairSlices& added) const {
   // Softer than most meshes (steel: 4 N/(mm um), a third of what ISO 6336-1 gives teeth); where one gives way more
   // still, pairs are added.
-  const double soft_mesh = 0.02 * material_.youngs_modulus;  // N/m per m of face width
+  const double soft_mesh = 0.02 * materials_.youngs_modulus();  // N/m per m of face width
   auto result = std::make_shared<ToothPairs>();
   result->phase = phase;
   result->load = load;

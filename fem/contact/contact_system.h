@@ -35,7 +35,7 @@ class ContactSystem {
  public:
   /// Everything is referred to; `supports` may be null. `slice_edges` as for the bodies.
   ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
-                const SupportRow* supports, const Material& material, std::vector<double> slice_edges,
+                const SupportRow* supports, const MeshMaterials& materials, std::vector<double> slice_edges,
                 const ContactOptions& options);
   ContactSystem(const ContactSystem&) = delete;
   ContactSystem& operator=(const ContactSystem&) = delete;
@@ -71,7 +71,7 @@ class ContactSystem {
   ContactFace face_;
   ContactBodies bodies_;
   PairRange range_;
-  Material material_;
+  MeshMaterials materials_;
   double window_;
   bool half_face_;
   PressureElements elements_;

@@ -49,7 +49,7 @@ void PressureElements::add(ToothPair& pair, const FacingFlanks& facing, double l
   const auto& domain = facing.domain;
   const double roll = facing.roll, centre_roll = facing.centre_roll;
   const double base = flanks.pair().pinion().base_radius(), wheel_base = flanks.pair().wheel().base_radius();
-  const double half_width = hertz_half_width(flanks, roll, load / bodies_.face.width(), material_);
+  const double half_width = hertz_half_width(flanks, roll, load / bodies_.face.width(), materials_);
   const auto arc_of = [&](double planet_roll) { return planet_roll * planet_roll / (2 * base); };
   const auto roll_of = [&](double arc) {
     return std::clamp(std::sqrt(2 * base * std::max(arc, 0.0)), domain.low, domain.high);

@@ -30,8 +30,8 @@ struct PressureElementOptions {
 /// Divides the contact windows of tooth pairs into pressure elements. Everything is referred to.
 class PressureElements {
  public:
-  PressureElements(const ContactBodies& bodies, const Material& material, const PressureElementOptions& options)
-      : bodies_(bodies), material_(material), options_(options) {}
+  PressureElements(const ContactBodies& bodies, const MeshMaterials& materials, const PressureElementOptions& options)
+      : bodies_(bodies), materials_(materials), options_(options) {}
 
   /// Elements of `pair` where flanks face each other; `load` (N) of the whole mesh, `window` in Hertz half-widths of
   /// it.
@@ -46,7 +46,7 @@ class PressureElements {
   [[nodiscard]] double shortest(const ToothPair& pair, double arc) const;
 
   ContactBodies bodies_;
-  const Material& material_;
+  const MeshMaterials& materials_;
   PressureElementOptions options_;
 };
 

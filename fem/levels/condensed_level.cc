@@ -79,15 +79,15 @@ std::vector<BodyField> worst_fields(const LoadedMeshProblem& problem, const Mesh
       worst_position(positions, problem.loads.size(), [](const auto& p) { return p.wheel_stress->root_von_mises; });
   const auto forces = forces_at(system, positions[worst]);
   std::vector<BodyField> fields;
-  const auto add = [&](const char* name, const BodySource& source, const CondensedBody& body,
+  const auto add = [&](const char* name, const BodySource& source, const CondensedBody& body, const Material& material,
                        const std::vector<ToothForces>& teeth, const SupportRow* supports) {
-    const FieldRecovery recovery(body.body(), source, problem.material, problem.face_width, supports);
+    const FieldRecovery recovery(body.body(), source, material, problem.face_width, supports);
     fields.push_back(recovery.field(teeth, forces, problem.pair.internal()));
     fields.back().body = name;
     fields.back().position = worst;
   };
-  add("planet", bodies.planet_source, *bodies.planet, forces.planet, nullptr);
-  add("wheel", bodies.wheel_source, *bodies.wheel, forces.wheel, bodies.supports.get());
+  add("planet", bodies.planet_source, *bodies.planet, problem.materials.planet, forces.planet, nullptr);
+  add("wheel", bodies.wheel_source, *bodies.wheel, problem.materials.wheel, forces.wheel, bodies.supports.get());
   return fields;
 }
 
@@ -97,7 +97,7 @@ double contact_error(const LoadedMeshProblem& problem, const FlankContact& flank
                      ContactOptions options, const std::vector<LoadedPosition>& positions) {
   constexpr int places = 4;
   options.elements *= 2;
-  const ContactSystem finer(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.material,
+  const ContactSystem finer(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.materials,
                             bodies.slice_edges, options);
   const std::size_t loads = problem.loads.size();
   double largest = 0;
@@ -123,7 +123,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   options.elements = pressure_elements(problem, settings, level);
   options.misalignment = problem.misalignment;
   options.half_face = bodies.face.half;
-  const ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.material,
+  const ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.materials,
                              bodies.slice_edges, options);
   const auto solve = [&](int cycle, int phase, int load, ContactSystem::PairsCache& cache,
                          ContactSystem::WarmStart& warm) {

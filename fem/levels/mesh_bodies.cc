@@ -19,6 +19,7 @@ struct Task {
   const geometry::ToothProfile* profile;
   double support_radius;
   GearBodyOptions options;
+  Material material{};
   GearBody body{};
   bool reused = false;
 };
@@ -29,6 +30,12 @@ struct GearTasks {
   std::optional<Task> fine, coarse;  // plane sections, from which the near field of a solid body comes
 };
 
+void set_material(GearTasks& gear, const Material& material) {
+  gear.body.material = material;
+  for (auto* section : {&gear.fine, &gear.coarse})
+    if (*section) (*section)->material = material;
+}
+
 /// In the order in which they are started.
 std::vector<Task*> all_tasks(GearTasks& planet, GearTasks& wheel) {
   std::vector<Task*> tasks = {&planet.body, &wheel.body};
@@ -38,11 +45,11 @@ std::vector<Task*> all_tasks(GearTasks& planet, GearTasks& wheel) {
   return tasks;
 }
 
-void condense_all(const std::vector<Task*>& tasks, const Material& material, int threads) {
+void condense_all(const std::vector<Task*>& tasks, int threads) {
   // The first two take nearly all of the time: all at once, so that neither waits for a small one.
   for_each_task(tasks.size(), threads > 1 ? static_cast<int>(tasks.size()) : 1, [&](std::size_t i) {
     auto& t = *tasks[i];
-    CondensedTooth tooth = condense_tooth(t.mesh, *t.profile, t.support_radius, material, t.options);
+    CondensedTooth tooth = condense_tooth(t.mesh, *t.profile, t.support_radius, t.material, t.options);
     t.reused = tooth.reused;
     t.body = compose_body(std::move(tooth), t.options);
   });
@@ -146,7 +153,9 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const Stopwatch condensing;
   lapack::use_one_thread();
   const auto tasks = all_tasks(planet, wheel);
-  condense_all(tasks, problem.material, settings.threads);
+  set_material(planet, problem.materials.planet);
+  set_material(wheel, problem.materials.wheel);
+  condense_all(tasks, settings.threads);
   for (const auto* task : tasks) ++(task->reused ? bodies.reused_teeth : bodies.condensed_teeth);
   bodies.face = face;
   bodies.slice_edges = face.edges(solid ? slices_per_cell(problem, settings.degree) * counts.face_cells : 1);
@@ -156,21 +165,21 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   bodies.planet_sector = face.half ? planet_plan.whole_sector(counts) : std::move(planet.body.mesh);
   bodies.wheel_sector = face.half ? wheel_plan.whole_sector(counts) : std::move(wheel.body.mesh);
   const double slant = 1 / std::cos(pair.pinion().base_helix_angle());
-  const auto condensed = [&](GearTasks& gear, double base_radius) {
+  const auto condensed = [&](GearTasks& gear, double base_radius, const Material& material) {
     auto near = near_field(gear);
-    return std::make_unique<CondensedBody>(std::move(gear.body.body), base_radius, problem.material, bodies.slice_edges,
+    return std::make_unique<CondensedBody>(std::move(gear.body.body), base_radius, material, bodies.slice_edges,
                                            std::move(near), slant);
   };
-  const double nu = problem.material.poisson_ratio;
-  bodies.planet_notch = notch_of(planet, nu, settings.degree);
-  bodies.wheel_notch = notch_of(wheel, nu, settings.degree);
-  bodies.planet = condensed(planet, pair.pinion().base_radius());
-  bodies.wheel = condensed(wheel, pair.wheel().base_radius());
+  const Material &of_planet = problem.materials.planet, &of_wheel = problem.materials.wheel;
+  bodies.planet_notch = notch_of(planet, of_planet.poisson_ratio, settings.degree);
+  bodies.wheel_notch = notch_of(wheel, of_wheel.poisson_ratio, settings.degree);
+  bodies.planet = condensed(planet, pair.pinion().base_radius(), of_planet);
+  bodies.wheel = condensed(wheel, pair.wheel().base_radius(), of_wheel);
   if (supports) bodies.supports = std::make_unique<SupportRow>(std::move(*supports), bodies.wheel->body());
-  bodies.planet_stress =
-      std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width, nu, nullptr, bodies.planet_notch);
-  bodies.wheel_stress = std::make_unique<StressRecovery>(bodies.wheel->body(), problem.face_width, nu,
-                                                         bodies.supports.get(), bodies.wheel_notch);
+  bodies.planet_stress = std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width,
+                                                          of_planet.poisson_ratio, nullptr, bodies.planet_notch);
+  bodies.wheel_stress = std::make_unique<StressRecovery>(
+      bodies.wheel->body(), problem.face_width, of_wheel.poisson_ratio, bodies.supports.get(), bodies.wheel_notch);
   bodies.condense_seconds = condensing.seconds();
   return bodies;
 }

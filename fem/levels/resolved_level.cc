@@ -129,9 +129,9 @@ struct ResolvedMesh {
         flanks(f),
         solid(settings.fidelity == Fidelity::resolved_solid),
         face(solved_face(p, settings)),
-        planet({p, f.pinion(), false, geometry::Boundary::leading_flank, settings.degree, solid, face}, p.material,
-               solid, level, settings.threads),
-        wheel({p, f.wheel(), true, f.wheel_flank(), settings.degree, solid, face}, p.material, solid, level,
+        planet({p, f.pinion(), false, geometry::Boundary::leading_flank, settings.degree, solid, face},
+               p.materials.planet, solid, level, settings.threads),
+        wheel({p, f.wheel(), true, f.wheel_flank(), settings.degree, solid, face}, p.materials.wheel, solid, level,
               settings.threads),
         slice_edges(
             face.edges(solid ? slices_per_cell(p, settings.degree) * planet.resolution.regular.face_cells : 1)) {}
@@ -152,7 +152,7 @@ ResolvedMesh::Places ResolvedMesh::places(const std::vector<std::pair<int, doubl
   Places result;
   for (const auto& [index, roll] : pairs) {
     PlaceOfContact planet_place;
-    planet_place.half_width = hertz_half_width(flanks, roll, load / problem.face_width, problem.material);
+    planet_place.half_width = hertz_half_width(flanks, roll, load / problem.face_width, problem.materials);
     planet_place.roll = roll;
     const double centre = flanks.nearest_roll(roll, flanks.domain(roll));
     const auto opposite = flanks.match(centre, roll);
@@ -195,9 +195,10 @@ LoadedPosition ResolvedMesh::solve(double phase, double load) const {
   for (;;) {
     auto on_wheel = contacts.wheel;
     if (last < first) std::reverse(on_wheel.begin(), on_wheel.end());
-    const ResolvedBody planet_body = planet.body(contacts.planet, pairs.front().first, problem.material, slice_edges);
-    const ResolvedBody wheel_body = wheel.body(on_wheel, std::min(first, last), problem.material, slice_edges);
-    const ContactSystem system(flanks, planet_body, wheel_body, nullptr, problem.material, slice_edges, options);
+    const ResolvedBody planet_body =
+        planet.body(contacts.planet, pairs.front().first, problem.materials.planet, slice_edges);
+    const ResolvedBody wheel_body = wheel.body(on_wheel, std::min(first, last), problem.materials.wheel, slice_edges);
+    const ContactSystem system(flanks, planet_body, wheel_body, nullptr, problem.materials, slice_edges, options);
     ContactSystem::PairsCache cache;
     ContactSystem::WarmStart warm;
     auto position = system.solve(0, phase, load, cache, warm, nullptr);

@@ -19,7 +19,7 @@ namespace annulus::fem {
 /// A gear mesh to be solved: sun-planet or planet-ring, with the bodies' supports.
 struct LoadedMeshProblem {
   geometry::GearPair pair;
-  Material material;
+  MeshMaterials materials{};
   double face_width = 0;            ///< m, common
   double planet_bore_radius = 0;    ///< m, rigid hub
   double wheel_support_radius = 0;  ///< m: bore of the sun (rigid hub) or outside radius of the ring
@@ -38,7 +38,7 @@ struct LoadedMeshProblem {
 
 /// The wheel, as its supports see it.
 [[nodiscard]] inline SupportedRing supported_ring(const LoadedMeshProblem& problem) {
-  return {problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width, problem.material};
+  return {problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width, problem.materials.wheel};
 }
 /// The single supports of the wheel; none where a surface holds it. Throws InputError when they cannot hold it.
 [[nodiscard]] inline SupportSites support_sites(const LoadedMeshProblem& problem) {

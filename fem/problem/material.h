@@ -9,4 +9,27 @@ struct Material {
   double density = 7850;  ///< kg/m^3
 };
 
+/// What the planet and the wheel of a mesh are made of.
+struct MeshMaterials {
+  Material planet{}, wheel{};
+
+  MeshMaterials() = default;
+  /// One material for both.
+  MeshMaterials(const Material& both) : planet(both), wheel(both) {}
+  MeshMaterials(const Material& of_planet, const Material& of_wheel) : planet(of_planet), wheel(of_wheel) {}
+
+  /// E* of a contact, Pa: 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2 [Johnson1985].
+  [[nodiscard]] double contact_modulus() const { return 1 / (yielding(planet) + yielding(wheel)); }
+  /// Pa, of two springs in series: 2 E_1 E_2 / (E_1 + E_2), as [ISO6336-1] has it for the stiffness of a pair.
+  [[nodiscard]] double youngs_modulus() const {
+    return 2 * planet.youngs_modulus * wheel.youngs_modulus / (planet.youngs_modulus + wheel.youngs_modulus);
+  }
+  [[nodiscard]] double larger_poisson_ratio() const {
+    return planet.poisson_ratio > wheel.poisson_ratio ? planet.poisson_ratio : wheel.poisson_ratio;
+  }
+
+ private:
+  static double yielding(const Material& m) { return (1 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus; }
+};
+
 }  // namespace annulus::fem

@@ -40,7 +40,7 @@ void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
 }
 
 double plane_strain_error(const LoadedMeshProblem& problem) {
-  const double nu = problem.material.poisson_ratio;
+  const double nu = problem.materials.larger_poisson_ratio();
   const double width = problem.face_width / problem.pair.pinion().parameters().module;
   return 0.65 * nu * nu / (1 - nu * nu) / (1 + width / 10);
 }

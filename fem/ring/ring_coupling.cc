@@ -88,7 +88,7 @@ SolvedRingCoupling solve_level(const LoadedMeshProblem& problem, const std::vect
   if (plan) options.arcs = plan->arcs();
   const RingFlexibility ring = make_ring_flexibility(
       body, solid ? solid_resolution(level, settings.degree) : plane_resolution(profile.gear(), level, settings.degree),
-      problem.material, options);
+      problem.materials.wheel, options);
 
   SolvedRingCoupling result;
   result.unknowns = ring.unknowns;
@@ -191,7 +191,7 @@ Eigen::VectorXd mesh_force_on_teeth(double position, int teeth) {
 
 PlaneStrainBounds plane_strain_bounds(const LoadedMeshProblem& problem, RingModel model) {
   if (solved_as_solid(problem, model)) return {};
-  const double squared = problem.material.poisson_ratio * problem.material.poisson_ratio;
+  const double squared = problem.materials.wheel.poisson_ratio * problem.materials.wheel.poisson_ratio;
   return {squared / (1 - squared), 1 - std::sqrt(1 - squared)};
 }
 

@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(speeds_torques_and_powers_of_every_flow) {
 }
 
 BOOST_AUTO_TEST_CASE(impossible_flows_are_refused) {
-  check_refused("", {"stage.sun_speed_rpm", "one of stage.sun_speed_rpm, stage.carrier_speed_rpm is required"});
+  check_refused("", {"stage.sun_speed_rpm", "one of sun_speed_rpm, carrier_speed_rpm, ring_speed_rpm is required"});
   check_refused("sun_speed_rpm = 100\ncarrier_speed_rpm = 20\n",
                 {"stage.carrier_speed_rpm = 20", "is given beside stage.sun_speed_rpm", "give one of"});
   check_refused(

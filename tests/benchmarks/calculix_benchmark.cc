@@ -64,7 +64,7 @@ Peer solve_with_calculix(const fem::LoadedMeshProblem& problem, const fem::Loade
   job.planet = &planet;
   job.wheel = &wheel;
   for (int tooth = 0; tooth < touching; ++tooth) job.pairs.emplace_back(tooth, tooth);
-  job.material = problem.material;
+  job.material = problem.materials.wheel;
   job.contact_stiffness = options.contact_stiffness;
   constexpr double more = 0.01;
   const double base = problem.pair.pinion().base_radius(), guess = position.entry.lte;

@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(what_a_tooth_depends_on_condenses_it_again) {
   const auto problem = ring_mesh(OutsideHeld{}, 2);
   (void)solve(problem, folder.store());
   auto changed = problem;
-  changed.material.youngs_modulus *= 1.01;
+  changed.materials.wheel.youngs_modulus *= 1.01;
   count_teeth(record, "teeth condensed for another material", solve(changed, folder.store()).condensed_teeth, 4);
   changed = problem;
   changed.wheel_support_radius += 1e-3;
@@ -207,12 +207,12 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
   for (const auto& [pins, slices] : {std::pair{81, 2}, {54, 2}, {24, 2}, {24, 1}}) {
     std::vector<double> edges = {0, width};
     if (slices == 2) edges.insert(edges.begin() + 1, width / 2);
-    const auto sites = paper_pins(pins, 0.01).supports({162, ring_outside, width, problem.material});
+    const auto sites = paper_pins(pins, 0.01).supports({162, ring_outside, width, problem.materials.wheel});
     options.arcs = annulus::fem::SupportPlan(sites, 162, edges).arcs();
     options.store = store.get();
-    const auto kept = condense_tooth(mesh, profile, ring_outside, problem.material, options);
+    const auto kept = condense_tooth(mesh, profile, ring_outside, problem.materials.wheel, options);
     options.store = nullptr;
-    const auto fresh = condense_tooth(mesh, profile, ring_outside, problem.material, options);
+    const auto fresh = condense_tooth(mesh, profile, ring_outside, problem.materials.wheel, options);
     BOOST_TEST(kept.reused == (!first && slices == 2));  // other slices are other unit loads
     first = false;
     BOOST_TEST(kept.body.arc_wrenches.size() == options.arcs.size());
@@ -254,7 +254,7 @@ BOOST_AUTO_TEST_CASE(the_folder_keeps_to_its_size) {
   const auto all = bytes();
   // Another material would need as much again.
   auto changed = problem;
-  changed.material.poisson_ratio = 0.28;
+  changed.materials.wheel.poisson_ratio = 0.28;
   const auto tight = std::make_shared<ResultStore>(folder.path(), "1", all);
   count_teeth(record, "teeth condensed for another material", solve(changed, tight).condensed_teeth, 4);
   record.at_most("size of the folder over its limit", "", static_cast<double>(bytes()) / static_cast<double>(all), 1,

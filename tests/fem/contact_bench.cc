@@ -41,7 +41,7 @@ void ContactBench::set_elements(int elements) {
 
 void ContactBench::rebuild() {
   system_ = std::make_unique<fem::ContactSystem>(flanks_, *bodies_.planet, *bodies_.wheel, bodies_.supports.get(),
-                                                 problem_.material, bodies_.slice_edges, options_);
+                                                 problem_.materials, bodies_.slice_edges, options_);
   pairs_ = {};
   warm_ = {};
 }

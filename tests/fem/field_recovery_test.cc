@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(flanks_move_as_the_condensed_body_says) {
   const Solved solved(ring_mesh(OutsideHeld{}, 4));
   const auto& body = solved.bodies.wheel->body();
   const double width = solved.problem.face_width;
-  const FieldRecovery recovery(body, solved.bodies.wheel_source, solved.problem.material, width, nullptr);
+  const FieldRecovery recovery(body, solved.bodies.wheel_source, solved.problem.materials.wheel, width, nullptr);
   const std::vector<ToothForces> teeth = {some_forces(5, body.flank_ports()), some_forces(6, body.flank_ports())};
   double largest = 0, worst = 0;
   for (const int sector : {4, 5, 6, 10}) {
@@ -90,13 +90,13 @@ BOOST_AUTO_TEST_CASE(a_ring_leans_on_its_pins) {
   const auto& supports = *solved.bodies.supports;
   const auto& body = solved.bodies.wheel->body();
   const ContactSystem system(solved.flanks, *solved.bodies.planet, *solved.bodies.wheel, &supports,
-                             solved.problem.material, solved.bodies.slice_edges, {});
+                             solved.problem.materials, solved.bodies.slice_edges, {});
   ContactSystem::PairsCache cache;
   ContactSystem::WarmStart warm;
   ContactForces forces;
   (void)system.solve(1, 0.25, nominal_load, cache, warm, &forces);
-  const FieldRecovery recovery(body, solved.bodies.wheel_source, solved.problem.material, solved.problem.face_width,
-                               &supports);
+  const FieldRecovery recovery(body, solved.bodies.wheel_source, solved.problem.materials.wheel,
+                               solved.problem.face_width, &supports);
   const auto& model = recovery.model();
   const Eigen::VectorXd own = supports.plan().own_compliance() * forces.supports;
   int touching = 0, parted = 0;

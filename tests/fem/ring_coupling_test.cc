@@ -49,7 +49,8 @@ SolvedRingCoupling solve(const RingStructure& structure, int planets, int per_cy
 struct PinnedRing {
   template <class Pins>
   PinnedRing(const LoadedMeshProblem& problem, const Pins& pins)
-      : plan(pins.supports({162, ring_outside, problem.face_width, problem.material}), 162, {0, problem.face_width}),
+      : plan(pins.supports({162, ring_outside, problem.face_width, problem.materials.wheel}), 162,
+             {0, problem.face_width}),
         flexibility(flexibility_of(problem, plan)),
         supported(flexibility, plan) {}
 
@@ -63,7 +64,7 @@ struct PinnedRing {
     options.face_width = problem.face_width;
     options.motions = {1, 0};
     options.arcs = plan.arcs();
-    return make_ring_flexibility(body, annulus::fem::plane_resolution(problem.pair.wheel(), 1), problem.material,
+    return make_ring_flexibility(body, annulus::fem::plane_resolution(problem.pair.wheel(), 1), problem.materials.wheel,
                                  options);
   }
 

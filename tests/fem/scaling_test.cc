@@ -32,7 +32,8 @@ fem::LoadedMeshProblem ring_problem(const fem::RingStructure& structure, const U
   fem::LoadedMeshProblem problem{geometry::GearPair(geometry::Gear(gear(geometry::GearKind::external, 24, units)),
                                                     geometry::Gear(ring), 96e-3 * units.length),
                                  {}};
-  problem.material.youngs_modulus *= units.pressure;
+  for (auto* material : {&problem.materials.planet, &problem.materials.wheel})
+    material->youngs_modulus *= units.pressure;
   problem.face_width = ring.face_width;
   problem.planet_bore_radius = 22e-3 * units.length;
   problem.wheel_support_radius = 165e-3 * units.length;

@@ -77,7 +77,7 @@ std::vector<Solved> solve(const LoadedMeshProblem& problem, int degree, bool sym
   options.elements = 6;
   options.half_face = bodies.face.half;
   const annulus::fem::ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(),
-                                           problem.material, bodies.slice_edges, options);
+                                           problem.materials, bodies.slice_edges, options);
   std::vector<Solved> results;
   for (const double phase : phases) {
     annulus::fem::ContactSystem::PairsCache cache;
@@ -290,7 +290,7 @@ struct HalfSector {
   annulus::geometry::Mesh mesh = plan.sector({{4, 2, 2, 1, 1, 1.0}, 2, 1});
 
   [[nodiscard]] annulus::fem::CondensedTooth condense(const annulus::fem::GearBodyOptions& options) const {
-    return condense_tooth(mesh, profile, plan.support_radius(), problem.material, options);
+    return condense_tooth(mesh, profile, plan.support_radius(), problem.materials.wheel, options);
   }
 };
 

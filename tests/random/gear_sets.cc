@@ -23,6 +23,13 @@ void flank_keys(GearSet& set, const std::string& gear, Section section) {
   if (section != Section::solid) set.chances[gear + ".lead_crowning_um"] = set.chances[gear + ".lead_slope_um"] = 0;
 }
 
+void material_keys(Draw& draw, GearSet& set, const std::string& gear, const Rack& rack) {
+  set.values[gear + ".youngs_modulus_GPa"] = rounded(rack.youngs_modulus_GPa * draw.log_uniform(0.2, 2));
+  set.values[gear + ".poisson_ratio"] = draw.one_of<double>({0.2, 0.3, 0.38});
+  set.values[gear + ".density_kg_per_m3"] = rounded(draw.log_uniform(1000, 9000));
+  for (const auto* key : {".youngs_modulus_GPa", ".poisson_ratio", ".density_kg_per_m3"}) set.chances[gear + key] = 0.1;
+}
+
 void mesh_keys(GearSet& set, const std::string& mesh, Section section) {
   if (section != Section::solid) set.chances["errors." + mesh + "_misalignment_um"] = 0;
 }

@@ -192,7 +192,10 @@ GearSet planetary_set(Draw& draw, Section section) {
     v[std::string(body) + ".mass_kg"] = disc.mass;
     v[std::string(body) + ".inertia_kg_m2"] = disc.inertia;
   }
-  for (const auto* body : {"sun", "planet", "ring"}) flank_keys(set, body, section);
+  for (const auto* body : {"sun", "planet", "ring"}) {
+    flank_keys(set, body, section);
+    material_keys(draw, set, body, rack);
+  }
   for (const auto* mesh : {"sun_planet", "ring_planet"}) mesh_keys(set, mesh, section);
   set.chances["carrier"] = 1;
   set.chances["errors"] = 0.8;

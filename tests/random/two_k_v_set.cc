@@ -66,7 +66,10 @@ GearSet two_k_v_set(Draw& draw, Section section) {
                                        : rounded(set.scales.stiffness_N_per_m * arm * arm * draw.log_uniform(0.1, 10));
   set.chances["arc_gear.clearance_um"] = 0.2;
   set.chances["input"] = 1;
-  for (const auto* body : {"sun", "planet"}) flank_keys(set, body, section);
+  for (const auto* body : {"sun", "planet"}) {
+    flank_keys(set, body, section);
+    material_keys(draw, set, body, rack);
+  }
   set.chances["mesh.sun_planet"] = 0.3;
   set.chances["mesh.arc_pins"] = 0.5;
   return set;

@@ -51,6 +51,7 @@ struct GearInput {
   std::optional<int> span_teeth;                         ///< or spaces
   std::optional<double> span, over_pins, measuring_pin;  ///< m
   std::optional<double> mass, inertia;
+  std::optional<double> youngs_modulus, poisson_ratio, density;  ///< instead of those of [material]
   std::optional<double> tip_diameter, root_diameter;
   double root_fillet_factor = 0;
   double tip_relief = 0, tip_relief_length = 0, profile_crowning = 0;

@@ -70,14 +70,13 @@ std::string no_closed_form(const Scene& scene, const PairGeometry& geometry) {
 
 StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& geometry, double transverse_force) {
   if (const auto why = no_closed_form(scene, geometry); !why.empty()) throw InputError("no closed form: " + why);
-  fem::LoadedMeshProblem problem{
-      .pair = geometry.gears,
-      .material = {scene.material.youngs_modulus, scene.material.poisson_ratio, scene.material.density},
-      .face_width = scene.stage.face_width,
-      .planet_bore_radius = *scene.pinion.bore_diameter / 2,
-      .wheel_support_radius = *scene.wheel.bore_diameter / 2,
-      .phases = 64,
-      .name = pinion_wheel};
+  fem::LoadedMeshProblem problem{.pair = geometry.gears,
+                                 .materials = {material_of(scene, scene.pinion), material_of(scene, scene.wheel)},
+                                 .face_width = scene.stage.face_width,
+                                 .planet_bore_radius = *scene.pinion.bore_diameter / 2,
+                                 .wheel_support_radius = *scene.wheel.bore_diameter / 2,
+                                 .phases = 64,
+                                 .name = pinion_wheel};
   for (const double factor : fem::table_load_factors) problem.loads.push_back(factor * transverse_force);
   return fem::helical_closed_form(problem);
 }

@@ -45,14 +45,15 @@ void declare_power_flow(Declarations<StageInput>& stage) {
       .absent(from_power);
   const auto speed = [&](const char* name, std::optional<double> StageInput::*member, const char* meaning,
                          const char* held_member, const char* why) {
-    stage.key(name, member, meaning)
+    return stage.key(name, member, meaning)
         .from(-1e6, 1e6)
         .refused_if(is("held", {held_member}), why)
         .absent("follows from the other speeds");
   };
   speed("sun_speed_rpm", &StageInput::sun_speed,
         "Speed of the sun; negative: clockwise. One speed is given, or two of a differential.", "sun",
-        "the sun is held");
+        "the sun is held")
+      .some_of({"carrier_speed_rpm", "ring_speed_rpm"});
   speed("carrier_speed_rpm", &StageInput::carrier_speed, "Speed of the carrier; negative: clockwise.", "carrier",
         "the carrier is held");
   speed("ring_speed_rpm", &StageInput::ring_speed, "Speed of the ring; negative: clockwise.", "ring",
@@ -79,6 +80,7 @@ Table planetary_hub_gear_table(const char* path, const char* meaning, HubGearInp
   declare_teeth(gear, Flanks::external, mate);
   declare_mass(gear);
   declare_inertia(gear).required_if(given("[dynamics]"));
+  declare_own_material(gear);
   declare_flanks(gear, Flanks::external);
   declare_bore(gear, computed);
   return gear.done();

@@ -65,11 +65,10 @@ class PowerFlowChecks : KeyChecks {
       if (given(key)) found.push_back(key);
     }
     if (found.size() == needed) return true;
+    if (found.empty()) return false;  // refused by the rule of these keys
     if (found.size() < needed) {
-      const auto missing = found.empty() || found.front() != possible.front() ? possible.front() : possible[1];
-      problem(missing, needed == 1 ? fmt::format("one of {} is required", fmt::join(possible, ", "))
-                                   : fmt::format("two of {} are required: no member is held (stage.held)",
-                                                 fmt::join(possible, ", ")));
+      problem(found.front() == possible.front() ? possible[1] : possible.front(),
+              fmt::format("two of {} are required: no member is held (stage.held)", fmt::join(possible, ", ")));
     } else {
       problem(found.back(),
               fmt::format("is given beside {}; give {} of {}", fmt::join(found.begin(), found.end() - 1, " and "),

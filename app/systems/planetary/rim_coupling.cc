@@ -57,7 +57,8 @@ std::vector<double> places_on_ring(const GearGeometry& geometry, const RingInput
 std::string coupling_id(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                         const RingInput& ring) {
   return identity_of(model.id(), coupling_level, model.coupling_degree, places_on_ring(geometry, ring),
-                     geometry.operating_point.mean_mesh_force, highest_frequency(geometry), scene.material.density);
+                     geometry.operating_point.mean_mesh_force, highest_frequency(geometry),
+                     material_of(scene, ring).density);
 }
 
 const RingInput& ring_of(const Scene& scene, const MeshModel& model) {

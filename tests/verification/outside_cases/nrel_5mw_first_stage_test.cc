@@ -163,7 +163,9 @@ BOOST_AUTO_TEST_CASE(iso_6336_figures) {
     first.compare(record, "contact_ratio_factor_" + mesh, 1,
                   [&](const Stage& s) { return geometry::contact_ratio_factor(s.mesh(mesh)); });
     first.compare(record, "nominal_flank_pressure_" + mesh, 1e6, [&](const Stage& s) {
-      return geometry::nominal_flank_pressure(s.mesh(mesh), force, material.youngs_modulus, material.poisson_ratio);
+      return geometry::nominal_flank_pressure(
+          s.mesh(mesh), force,
+          fem::MeshMaterials({material.youngs_modulus, material.poisson_ratio, material.density}).contact_modulus());
     });
   }
   // A ring's root is that of its cutter, an external gear's that of its rack.
