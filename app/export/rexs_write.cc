@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <deque>
 #include <pugixml.hpp>
 #include <sstream>
+#include <utility>
 
 #include "app/export/rexs.h"
 #include "app/plan/gear_geometry.h"
@@ -121,18 +123,34 @@ void custom_attributes(Rexs::Component& component, const Scene& scene, const std
   }
 }
 
-Rexs::Component material_component(Rexs& rexs, const fem::Material& of) {
-  auto material = rexs.component("material", "material");
-  material.attribute("elastic_modulus", "N / mm^2", of.youngs_modulus / 1e6);
-  material.attribute("poisson_ratio", "none", of.poisson_ratio);
-  material.attribute("density", "kg / dm^3", of.density / 1e3);
-  return material;
-}
+/// The materials of all gears, each once.
+class Materials {
+ public:
+  explicit Materials(Rexs& rexs) : rexs_(rexs) {}
+
+  const Rexs::Component& component(const fem::Material& of) {
+    const auto same = [&](const auto& known) {
+      const fem::Material& m = known.first;
+      return m.youngs_modulus == of.youngs_modulus && m.poisson_ratio == of.poisson_ratio && m.density == of.density;
+    };
+    if (const auto found = std::find_if(known_.begin(), known_.end(), same); found != known_.end())
+      return found->second;
+    auto material = rexs_.component("material", "material");
+    material.attribute("elastic_modulus", "N / mm^2", of.youngs_modulus / 1e6);
+    material.attribute("poisson_ratio", "none", of.poisson_ratio);
+    material.attribute("density", "kg / dm^3", of.density / 1e3);
+    return known_.emplace_back(of, material).second;
+  }
+
+ private:
+  Rexs& rexs_;
+  std::deque<std::pair<fem::Material, Rexs::Component>> known_;
+};
 
 /// A gear with its material, and both its flanks, which have pressure angle and profile shift.
 Rexs::Component gear(Rexs& rexs, const Scene& scene, const std::string& name, const GearInput& input,
-                     const geometry::Gear& gear) {
-  const auto material = material_component(rexs, material_of(scene, input));
+                     const geometry::Gear& gear, Materials& materials) {
+  const auto& material = materials.component(material_of(scene, input));
   const bool internal = gear.kind() == geometry::GearKind::internal;
   auto component = rexs.component(internal ? "ring_gear" : "cylindrical_gear", name);
   // REXS follows DIN ISO 21771: the number of teeth of an internal gear is negative, and so a profile shift that
@@ -182,12 +200,13 @@ std::string rexs_text(const Scene& scene, const std::string& ring) {
                      ": REXS has no arc-tooth gears; only planetary stages and pairs can be exported");
   Rexs rexs;
   auto unit = rexs.component("gear_unit", scene.title);
+  Materials materials(rexs);
   if (scene.stage.kind == "helical_pair") {
     custom_attributes(unit, scene, stage_tables);
-    auto pinion =
-        gear(rexs, scene, "pinion", scene.pinion, make_gear(scene, scene.pinion, geometry::GearKind::external, 1));
-    auto wheel =
-        gear(rexs, scene, "wheel", scene.wheel, make_gear(scene, scene.wheel, geometry::GearKind::external, -1));
+    auto pinion = gear(rexs, scene, "pinion", scene.pinion,
+                       make_gear(scene, scene.pinion, geometry::GearKind::external, 1), materials);
+    auto wheel = gear(rexs, scene, "wheel", scene.wheel,
+                      make_gear(scene, scene.wheel, geometry::GearKind::external, -1), materials);
     custom_attributes(pinion, scene, {"pinion"});
     custom_attributes(wheel, scene, {"wheel"});
     stage(rexs, "pinion - wheel", pair_centre_distance(scene), unit, nullptr, pinion, wheel);
@@ -209,12 +228,12 @@ std::string rexs_text(const Scene& scene, const std::string& ring) {
   if (scene.carrier.mass) carrier.attribute("mass_of_component", "kg", *scene.carrier.mass);
   custom_attributes(carrier, scene, {"carrier"});
   rexs.relation("assembly", {{"assembly", &unit}, {"part", &carrier}});
-  auto sun = gear(rexs, scene, "sun", scene.sun, set.sun_mesh().wheel());
+  auto sun = gear(rexs, scene, "sun", scene.sun, set.sun_mesh().wheel(), materials);
   custom_attributes(sun, scene, {"sun"});
-  auto annulus = gear(rexs, scene, "ring " + found->name, *found, set.ring_mesh().wheel());
+  auto annulus = gear(rexs, scene, "ring " + found->name, *found, set.ring_mesh().wheel(), materials);
   custom_attributes(annulus, scene, {"ring"}, found->name);
   for (int n = 1; n <= scene.stage.planets; ++n) {
-    auto planet = gear(rexs, scene, fmt::format("planet {}", n), scene.planet, set.sun_mesh().pinion());
+    auto planet = gear(rexs, scene, fmt::format("planet {}", n), scene.planet, set.sun_mesh().pinion(), materials);
     custom_attributes(planet, scene, {"planet"});
     const double distance = scene.stage.centre_distance;
     stage(rexs, fmt::format("sun - planet {}", n), distance, unit, &planetary, sun, planet);

@@ -9,6 +9,15 @@ Declared declare_centre_distance(Declarations<StageInput>& stage) {
   return key;
 }
 
+void declare_tip_shortening(Declarations<StageInput>& stage) {
+  stage
+      .choice("tip_shortening", &StageInput::tip_shortening,
+              {{"none", TipShortening::none}, {"full", TipShortening::full}},
+              "Tip circles of external gears without tip_diameter_mm. none: an addendum of one module. full: shortened "
+              "by k = x₁ + x₂ − (a − a_d)/m modules (ISO 21771), which keeps the tip clearance of the basic rack.")
+      .fallback("none", "the addendum of the basic rack");
+}
+
 void declare_planets(Declarations<StageInput>& stage) {
   stage.key("planets", &StageInput::planets, "Number of planets.").from(1, 50).required();
 }

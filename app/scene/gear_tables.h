@@ -139,6 +139,8 @@ void declare_bore(Declarations<Section>& t, const Condition& computed) {
 
 /// centre_distance_mm of [stage].
 [[nodiscard]] Declared declare_centre_distance(Declarations<StageInput>& stage);
+/// tip_shortening of [stage].
+void declare_tip_shortening(Declarations<StageInput>& stage);
 /// planets of [stage].
 void declare_planets(Declarations<StageInput>& stage);
 

@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(rules_are_explained) {
   has("planet.bore_diameter_mm", "mesh.ring_planet.stiffness = \"computed\" (planetary)");
   has("errors.mesh_error_um", "refused beside [manufacturing_error]");
   has("sweep.values", "either this or from, to and count");
-  has("stage.centre_distance_mm", "required for planetary, else optional");
+  has("stage.centre_distance_mm", "required for planetary, else conditional");
 }
 
 BOOST_AUTO_TEST_CASE(earlier_names_are_refused_with_the_present_one) {

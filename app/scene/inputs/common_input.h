@@ -18,6 +18,7 @@ using Fidelity = fem::WantedModel;
 enum class Compare { none, computed };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table, iso_6336, closed_form };
 enum class MeshDamping { in_contact, always };
+enum class TipShortening { none, full };
 enum class RimCoupling { automatic, none, statical, elastic };
 
 inline constexpr double rigid = std::numeric_limits<double>::infinity();
@@ -32,6 +33,7 @@ struct StageInput {
   std::optional<double> power, sun_torque, carrier_torque, ring_torque;  ///< W, N m; exactly one is given
   /// rad/s, counter-clockwise; one is given, two of a differential.
   std::optional<double> sun_speed, carrier_speed, ring_speed;
+  TipShortening tip_shortening = TipShortening::none;
   double pinion_torque = 0, pinion_speed = 0;  ///< helical_pair
 };
 

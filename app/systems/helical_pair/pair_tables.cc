@@ -7,7 +7,10 @@ namespace {
 
 Table pair_stage_table() {
   Declarations stage("stage", "", &Scene::stage);
-  declare_centre_distance(stage).absent("the distance without backlash, from the profile shifts");
+  declare_centre_distance(stage)
+      .absent("the distance without backlash, from the profile shifts")
+      .required_if(is("tip_shortening", {"full"}));
+  declare_tip_shortening(stage);
   stage
       .key("pinion_torque_Nm", &StageInput::pinion_torque,
            "Torque that drives the pinion. Negative: the back flanks carry it.")

@@ -70,6 +70,7 @@ Table planetary_stage_table() {
       .from(0, 360)
       .absent("equally spaced");
   declare_centre_distance(stage).required();
+  declare_tip_shortening(stage);
   declare_power_flow(stage);
   return stage.done();
 }

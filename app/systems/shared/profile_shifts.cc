@@ -32,6 +32,9 @@ class ShiftResolver : KeyChecks {
       if (gears_[i].gear->shift_from == ShiftSource::centre_distance) from_mate(i);
     for (std::size_t i = 0; i < gears_.size(); ++i)
       if (gears_[i].kind == geometry::GearKind::internal && known_[i]) give_tip(i);
+    if (scene_.stage.tip_shortening != TipShortening::full) return;
+    for (std::size_t i = 0; i < gears_.size(); ++i)
+      if (gears_[i].kind == geometry::GearKind::external && known_[i] && mate_known(i)) shorten_tip(i);
   }
 
  private:
@@ -142,6 +145,20 @@ class ShiftResolver : KeyChecks {
           entry(i));
     } catch (const GeometryError&) {  // reported with its reason where the gears are made
     }
+  }
+
+  /// k = x_1 + x_2 - (a - a_d) / m_n [ISO21771], where it is above zero.
+  void shorten_tip(std::size_t i) {
+    const auto& g = gears_[i];
+    if (given(key(i, "tip_diameter_mm"), entry(i)) || !(scene_.stage.centre_distance > 0)) return;
+    const auto p = parameters(i);
+    const double transverse = p.module / std::cos(p.helix_angle);
+    const double unshifted = transverse * (p.teeth + g.mate->teeth) / 2;
+    const double k = p.profile_shift + g.mate->profile_shift - (scene_.stage.centre_distance - unshifted) / p.module;
+    if (!(k > 0)) return;
+    g.gear->tip_diameter = transverse * p.teeth + 2 * p.module * (1 + p.profile_shift - k);
+    set(key(i, "tip_diameter_mm"), *g.gear->tip_diameter / units::mm, Origin::derived,
+        fmt::format("addendum of one module, shortened by k = {} modules", to_text(k, 4)), entry(i));
   }
 
   const std::vector<ShiftedGear>& gears_;

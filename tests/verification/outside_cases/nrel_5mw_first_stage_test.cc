@@ -12,6 +12,7 @@
 #include "app/scene/scene.h"
 #include "core/csv.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/units.h"
 #include "geometry/iso6336.h"
 #include "tests/verification/body_torsion.h"
@@ -143,6 +144,24 @@ BOOST_AUTO_TEST_CASE(geometry_and_forces) {
   first.compare(
       record, "tangential_force", 1, [&](const Stage&) { return first.tangential_force(); },
       FirstStage::power_rounding);
+}
+
+BOOST_AUTO_TEST_CASE(tips_are_shortened_as_printed) {
+  Verification record("Tip shortening of the NREL 5 MW reference gearbox",
+                      "KISSsoft report: tip diameters of sun and planet, which contain a shortening of -10.861 mm");
+  auto text = read_file(test::OutsideCase("nrel_5mw_first_stage").scene("first_stage.toml"));
+  for (const auto* line : {"tip_diameter_mm = 978.808", "tip_diameter_mm = 905.470"})
+    text.replace(text.find(line), std::string(line).size(), "");
+  const std::string key = "face_width_mm = 491";
+  text.replace(text.find(key), key.size(), key + "\ntip_shortening = \"full\"");
+  const auto geometry = app::make_geometry(app::parse_scene(text, "scene.toml"));
+  const auto& set = geometry.rings.front().set;
+  // Both profile shifts are printed with four decimals: 0.0001 of 45 mm, on both sides.
+  const double rounding = 1e-4 * 45 * 2;
+  record.near("tip diameter of the sun", "mm", 2e3 * set.sun().tip_radius(), 978.808, rounding,
+              "printed profile shifts");
+  record.near("tip diameter of the planet", "mm", 2e3 * set.planet().tip_radius(), 905.470, rounding,
+              "printed profile shifts");
 }
 
 BOOST_AUTO_TEST_CASE(iso_6336_figures) {
