@@ -145,10 +145,12 @@ void check_places(std::vector<double> teeth_ahead, int teeth) {
                                                        teeth_ahead.front()));
   // The four teeth that share one mesh force are not those of the next planet.
   constexpr double apart = 4;
+  for (const double place : teeth_ahead)
+    if (!std::isfinite(place)) throw InputError(fmt::format("a planet stands {} ring teeth ahead of planet 1", place));
   std::sort(teeth_ahead.begin(), teeth_ahead.end());
   teeth_ahead.push_back(teeth);
   for (std::size_t n = 0; n + 1 < teeth_ahead.size(); ++n)
-    if (!std::isfinite(teeth_ahead[n + 1]) || teeth_ahead[n + 1] - teeth_ahead[n] < apart)
+    if (teeth_ahead[n + 1] - teeth_ahead[n] < apart)
       throw InputError(
           fmt::format("a planet stands {} ring teeth ahead of planet 1, the next one {}: at least {} have to lie "
                       "between them",
