@@ -36,6 +36,15 @@ double outside_radius(const Scene& scene, const RingInput& ring) {
   return make_gear(scene, ring, geometry::GearKind::internal).root_radius() + ring.rim_thickness.value_or(0);
 }
 
+std::optional<double> known_outside(const Scene& scene, const RingInput& ring) {
+  if (!ring.outside_diameter && !ring.rim_thickness) return std::nullopt;
+  try {
+    return outside_radius(scene, ring);
+  } catch (const GeometryError&) {
+    return std::nullopt;
+  }
+}
+
 GearGeometry make_geometry(const Scene& scene) {
   using geometry::GearKind;
   const auto sun = geometry_of("sun", [&] { return make_gear(scene, scene.sun, GearKind::external, -1); });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ auto geometry_of(const std::string& name, Make make) {
 
 /// m. Throws GeometryError when it follows from a gear that cannot exist.
 [[nodiscard]] double outside_radius(const Scene& scene, const RingInput& ring);
+
+/// Outside radius in m, when the scene defines it; what is missing is reported elsewhere.
+[[nodiscard]] std::optional<double> known_outside(const Scene& scene, const RingInput& ring);
 
 /// Throws GeometryError, naming the ring, when the gears cannot exist or mesh.
 [[nodiscard]] GearGeometry make_geometry(const Scene& scene);

@@ -184,6 +184,21 @@ BOOST_AUTO_TEST_CASE(defaults_that_hold_where_a_key_applies) {
   BOOST_TEST(rule_problems(tables, {form_of("flat"), depth_of(4)}).size() == 1U);
 }
 
+BOOST_AUTO_TEST_CASE(of_a_group_one_or_some_are_given) {
+  const auto one = shapes([](app::Declared key) { key.one_of({"width_mm"}); });
+  const auto some = shapes([](app::Declared key) { key.some_of({"width_mm"}); });
+  const auto width = written("shape.width_mm", 2.0);
+  for (const auto* tables : {&one, &some}) {
+    BOOST_TEST(the_only_message(rule_problems(*tables, {absent("shape.depth_mm"), absent("shape.width_mm")}))
+                   .find("one of depth_mm, width_mm is required") != std::string::npos);
+    BOOST_TEST(rule_problems(*tables, {depth_of(3), absent("shape.width_mm")}).empty());
+    BOOST_TEST(rule_problems(*tables, {absent("shape.depth_mm"), width}).empty());
+  }
+  BOOST_TEST(the_only_message(rule_problems(one, {depth_of(3), width})).find("is given beside depth_mm") !=
+             std::string::npos);
+  BOOST_TEST(rule_problems(some, {depth_of(3), width}).empty());
+}
+
 BOOST_AUTO_TEST_CASE(rules_name_keys_that_exist) {
   for (const auto& kind : app::scene_kinds())
     for (const auto& table : app::schema(kind.name))
@@ -194,6 +209,8 @@ BOOST_AUTO_TEST_CASE(rules_name_keys_that_exist) {
         };
         for (const auto& name : p.together_with) BOOST_TEST(exists(name), p.key() << " together with " << name);
         for (const auto& name : p.instead_of) BOOST_TEST(exists(name), p.key() << " instead of " << name);
+        for (const auto& name : p.one_of) BOOST_TEST(exists(name), p.key() << " one of " << name);
+        for (const auto& name : p.some_of) BOOST_TEST(exists(name), p.key() << " some of " << name);
         for (const auto& choice : p.old_choices)
           BOOST_TEST((std::find(p.choices.begin(), p.choices.end(), choice.name) != p.choices.end()), p.key());
       }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/model/gear_system.h"
 #include "app/plan/gear_geometry.h"
 #include "app/scene/overrides.h"
 #include "app/systems/planetary/planetary_run.h"
@@ -156,6 +157,22 @@ BOOST_AUTO_TEST_CASE(the_mirror_image_driven_the_other_way_gives_the_same) {
       results_of(test::replaced(scene, "sun_speed_rpm = 1128", "sun_speed_rpm = -1128"), folder.path() / "c");
   const std::string sharing = "sun_planet_load_sharing_averaged";
   BOOST_TEST(std::abs(other.at(sharing) / expected.at(sharing) - 1) > 1e-3);
+}
+
+// Elements depend on the force of a mesh alone.
+BOOST_AUTO_TEST_CASE(a_sweep_of_the_speed_at_a_torque_solves_no_elements) {
+  const std::string sweep = "[[sweep]]\ninput = \"stage.ring_speed_rpm\"\nvalues = [-450, 100, 300]\n";
+  const auto tables = [&](const char* load) {
+    auto text = test::replaced(test::small_stage(), "power_kW = 200\nsun_speed_rpm = 1500\n",
+                               std::string("held = \"none\"\nsun_speed_rpm = 1500\nring_speed_rpm = -50\n") + load);
+    const auto plan = app::make_plan(app::parse_scene(text + sweep, "scene.toml"));
+    BOOST_TEST_REQUIRE(plan.studies.size() == 1U);
+    return plan.studies.front().tables;
+  };
+  BOOST_TEST(tables("sun_torque_Nm = 1200\n") == 0);
+  BOOST_TEST(tables("power_kW = 200\n") == 0);  // the speed of the sun, which drives, stays
+  // At -450 r/min the carrier is slow, and its torque ten times as large: no load of the tables.
+  BOOST_TEST(tables("drives = \"carrier\"\npower_kW = 200\n") == 2);
 }
 
 BOOST_AUTO_TEST_CASE(results_tell_who_drives) {

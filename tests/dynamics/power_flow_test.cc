@@ -44,9 +44,9 @@ PlanetaryStage with(PlanetaryStage stage, const Flow& flow) {
 BOOST_AUTO_TEST_CASE(statics_do_not_depend_on_which_member_is_held) {
   annulus::test::Verification record(
       "Mesh forces of a stage with each of its members held",
-      "statics: the torques of sun, ring and carrier are as z_s : z_r : -(z_s + z_r) and equal the moments of the mesh "
-      "forces, whatever turns; the forces are those of the stage with a fixed ring, in reversed order where the teeth "
-      "roll backwards");
+      "statics: the moments of the mesh forces equal the torques, which are as z_s : z_r : -(z_s + z_r). The forces "
+      "are "
+      "those of the stage with a fixed ring, in reversed order where the teeth roll backwards");
   const auto paper = stages::ring_paper();
   const auto fixed = quasi_static(with(paper, flows[0]), 4);
   const Eigen::Index positions = fixed.sun_force.cols();

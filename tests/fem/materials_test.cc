@@ -59,8 +59,8 @@ BOOST_AUTO_TEST_CASE(the_width_of_a_contact_follows_both_moduli) {
 BOOST_AUTO_TEST_CASE(twins_of_two_materials) {
   annulus::test::Verification record(
       "Equal gears of steel and plastic",
-      "symmetry: it does not matter which of them is of steel; superposition: the compliance of the bodies is the mean "
-      "of those of two steel and of two plastic gears");
+      "symmetry: either gear may be the one of steel. Superposition: the compliance is the mean of that of two steel "
+      "and two plastic gears");
   for (const auto& [fidelity, name] : {std::pair{Fidelity::plane, "plane"}, {Fidelity::closed_form, "closed form"}}) {
     const double mixed = mean_compliance({steel, plastic}, fidelity),
                  other = mean_compliance({plastic, steel}, fidelity), soft = mean_compliance(plastic, fidelity),

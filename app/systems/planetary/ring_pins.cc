@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/plan/gear_geometry.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_schema.h"
 #include "core/units.h"

@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "app/systems/planetary/ring_structures.h"
+#include "app/scene/scene.h"
+#include "app/systems/planetary/structure_keys.h"
 #include "fem/problem/structures/pin_held.h"
 
 /// Rings on pins or bolts in a scene.

@@ -10,6 +10,7 @@
 #include "app/scene/key_checks.h"
 #include "app/scene/model_limits.h"
 #include "app/systems/planetary/ring_pins.h"
+#include "app/systems/planetary/structure_keys.h"
 #include "core/errors.h"
 #include "core/units.h"
 #include "fem/problem/structures/clamped.h"
@@ -230,15 +231,6 @@ void declare_structure_keys(Declarations<RingInput>& ring) {
   declare_pins({ring, is("structure", {"pinned", "bolted"})});
   declare_splines(ring);
   declare_clamp(ring);
-}
-
-std::optional<double> known_outside(const Scene& scene, const RingInput& ring) {
-  if (!ring.outside_diameter && !ring.rim_thickness) return std::nullopt;
-  try {
-    return outside_radius(scene, ring);
-  } catch (const GeometryError&) {
-    return std::nullopt;
-  }
 }
 
 void check_structure(RingInput& ring, Scene& scene, std::vector<Problem>& problems) {

@@ -10,27 +10,9 @@
 /// Ring structures in a scene: their keys, the rules between these, and the structure that the elastic models see.
 namespace annulus::app {
 
-/// Declares keys that one structure has: refused with others.
-struct StructureKeys {
-  Declarations<RingInput>& ring;
-  Condition structure;  ///< where the keys apply
-
-  template <class Member>
-  Declared optional(const char* name, Member member, const char* meaning) const {
-    return ring.key(name, member, meaning).only_if(structure);
-  }
-  template <class Member>
-  Declared needed(const char* name, Member member, const char* meaning) const {
-    return ring.key(name, member, meaning).needed_if(structure);
-  }
-};
-
 /// The key `structure`, and the keys of all structures.
 void declare_structure(Declarations<RingInput>& ring);
 void declare_structure_keys(Declarations<RingInput>& ring);
-
-/// Outside radius in m, when the scene defines it; what is missing is reported elsewhere.
-[[nodiscard]] std::optional<double> known_outside(const Scene& scene, const RingInput& ring);
 
 /// Dimensions of a ring of this scene that have to agree: flange, hoop, pins, clamp. A single pin gets the bore that it
 /// needs. Problems are appended, never thrown.
