@@ -12,8 +12,8 @@ if [ $# -eq 0 ]; then
   mkdir -p "$records"
   set -- --label-regex '^(unit|verification)$'
 fi
-# Without the tests of the manual itself, and without the one that removes old records.
-ctest --preset release --parallel "$(nproc)" --exclude-regex '^manual\.' --fixture-exclude-setup '^verification_records$' "$@"
+# Without the tests that read the manual, and without the one that removes old records.
+ctest --preset release --parallel "$(nproc)" --exclude-regex '^(manual\.|documents\.sentences)' --fixture-exclude-setup '^verification_records$' "$@"
 build/release/tests/manual/verification_manual write --entries build/release/tests/entries.txt --records "$records" \
   --introduction tests/manual/introduction.md --docs docs
 echo "docs/verification.md"
