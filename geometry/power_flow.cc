@@ -15,7 +15,7 @@ MemberValues member_speeds(int sun_teeth, int ring_teeth, KnownSpeed first, Know
   MemberValues speeds;
   speeds[first.member] = first.speed;
   speeds[second.member] = second.speed;
-  for (const auto third : {StageMember::sun, StageMember::carrier, StageMember::ring})
+  for (const auto third : stage_members)
     if (third != first.member && third != second.member)
       speeds[third] = -(weight[first.member] * first.speed + weight[second.member] * second.speed) / weight[third];
   return speeds;

@@ -1,11 +1,17 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace annulus::geometry {
 
 /// The members of a planetary stage that carry power.
 enum class StageMember { sun, carrier, ring };
+inline constexpr StageMember stage_members[] = {StageMember::sun, StageMember::carrier, StageMember::ring};
+[[nodiscard]] constexpr const char* to_string(StageMember member) {
+  constexpr const char* names[] = {"sun", "carrier", "ring"};
+  return names[static_cast<int>(member)];
+}
 
 /// One value for each member, by StageMember.
 class MemberValues {

@@ -9,10 +9,6 @@ namespace annulus::app {
 
 using geometry::StageMember;
 
-const char* to_string(StageMember member) {
-  return member == StageMember::sun ? "sun" : member == StageMember::carrier ? "carrier" : "ring";
-}
-
 geometry::MemberValues stage_speeds(const StageInput& stage, int sun_teeth, int ring_teeth) {
   std::vector<geometry::KnownSpeed> known;
   if (stage.held) known.push_back({*stage.held, 0});

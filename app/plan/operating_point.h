@@ -29,7 +29,4 @@ struct OperatingPoint {
 [[nodiscard]] OperatingPoint operating_point(const StageInput& stage, int sun_teeth, int ring_teeth,
                                              double sun_base_radius);
 
-/// "sun", "carrier", "ring".
-[[nodiscard]] const char* to_string(geometry::StageMember member);
-
 }  // namespace annulus::app

@@ -12,6 +12,7 @@
 BOOST_AUTO_TEST_SUITE(bearing_forces)
 
 using namespace annulus::dynamics;
+using annulus::geometry::StageMember;
 
 /// Steady response over one error period, sampled finely enough for differences in time.
 TimeSeries steady_series(const PlanetaryStage& stage, int samples_per_cycle) {
@@ -126,8 +127,8 @@ BOOST_AUTO_TEST_CASE(support_reactions_balance_the_meshes) {
   const auto series = steady_series(stage, 256);
   const auto pins = annulus::dynamics::bearing_forces(stage, series);
   const double omega = stage.carrier_speed;
-  for (const auto member : {CentralMember::sun, CentralMember::ring, CentralMember::carrier}) {
-    const bool sun = member == CentralMember::sun, carrier = member == CentralMember::carrier;
+  for (const auto member : {StageMember::sun, StageMember::ring, StageMember::carrier}) {
+    const bool sun = member == StageMember::sun, carrier = member == StageMember::carrier;
     Eigen::RowVectorXd x = Eigen::RowVectorXd::Zero(series.time.size()), y = x;
     for (int n = 0; n < 5; ++n) {
       const double phi = stage.planet_angles[n];
@@ -153,9 +154,9 @@ BOOST_AUTO_TEST_CASE(support_reactions_balance_the_meshes) {
   // The housing takes the difference of the torques through the ring: T_s - T_c.
   const double expected = stage.sun_torque - stage.carrier_torque();
   record.near("torque on the housing over the difference of the torques", "",
-              support_reaction(stage, series, CentralMember::ring).torque.mean() / expected, 1, 1e-4,
+              support_reaction(stage, series, StageMember::ring).torque.mean() / expected, 1, 1e-4,
               "windows repeat to 1e-4 of the mesh force");
-  BOOST_TEST(support_reaction(stage, series, CentralMember::sun).torque.cwiseAbs().maxCoeff() == 0.0);
+  BOOST_TEST(support_reaction(stage, series, StageMember::sun).torque.cwiseAbs().maxCoeff() == 0.0);
 }
 
 // All supports rigid and one planet: the sun's bearing takes the mesh force as it is, and a rigid ring the same torque.
@@ -168,7 +169,7 @@ BOOST_AUTO_TEST_CASE(rigid_supports) {
   stage.sun_phase_lag = stage.ring_phase_lag = stage.ring_tooth_offset = {0};
   stage.sun.support = stage.ring.support = stage.carrier.support = stage.ring.torsional_support = rigid;
   const auto series = steady_series(stage, 64);
-  const auto sun = support_reaction(stage, series, CentralMember::sun);
+  const auto sun = support_reaction(stage, series, StageMember::sun);
   const Eigen::VectorXd force = series.force.row(0).transpose();
   record.at_most("force on the sun's bearing less mesh force, over it", "",
                  (sun.magnitude() - force.cwiseAbs()).cwiseAbs().maxCoeff() / force.maxCoeff(), 1e-12, "rounding");
@@ -178,12 +179,12 @@ BOOST_AUTO_TEST_CASE(rigid_supports) {
   const Eigen::VectorXd outwards = std::cos(phi) * sun.x + std::sin(phi) * sun.y;
   record.near("radial part of it over the mesh force: -sin of the working pressure angle", "",
               outwards.mean() / force.mean(), -std::sin(stage.sun_working_angle), 1e-12, "rounding");
-  const auto ring = support_reaction(stage, series, CentralMember::ring);
+  const auto ring = support_reaction(stage, series, StageMember::ring);
   record.near("torque on the ring over the difference of the torques", "",
               ring.torque.mean() / (stage.sun_torque - stage.carrier_torque()), 1, 1e-4,
               "windows repeat to 1e-4 of the mesh force");
   // Carrier: the pin's force, whatever the way there.
-  const auto carrier = support_reaction(stage, series, CentralMember::carrier);
+  const auto carrier = support_reaction(stage, series, StageMember::carrier);
   const auto pins = annulus::dynamics::bearing_forces(stage, series);
   BOOST_TEST((carrier.magnitude() - pins.resultant().row(0).transpose()).cwiseAbs().maxCoeff() <=
              1e-12 * force.maxCoeff());

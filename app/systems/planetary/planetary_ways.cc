@@ -19,10 +19,8 @@ const std::vector<RigidChange<Stage>>& rigid_changes() {
       {"ring held in place", [](Stage& s) { return std::vector{&s.ring.support}; }},
       {"held rigidly against rotation",
        [](Stage& s) {
-         using geometry::StageMember;
-         if (!s.held) return std::vector<double*>{};
-         auto& body = *s.held == StageMember::sun ? s.sun : *s.held == StageMember::ring ? s.ring : s.carrier;
-         return body.torsional_support > 0 ? std::vector{&body.torsional_support} : std::vector<double*>{};
+         if (!s.held || !(s.body(*s.held).torsional_support > 0)) return std::vector<double*>{};
+         return std::vector{&s.body(*s.held).torsional_support};
        }},
       {"carrier held in place", [](Stage& s) { return std::vector{&s.carrier.support}; }},
       {"planet bearings rigid", [](Stage& s) {

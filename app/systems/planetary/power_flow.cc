@@ -151,11 +151,4 @@ std::string role_of(const Scene& scene, const OperatingPoint& point, StageMember
   return power > least ? "drives" : power < -least ? "delivers" : "carries torque at rest";
 }
 
-std::string power_flow_words(const Scene& scene, const OperatingPoint& point) {
-  std::vector<std::string> words;
-  for (const auto member : stage_members)
-    words.push_back(fmt::format("{} {}", to_string(member), role_of(scene, point, member)));
-  return fmt::format("{}", fmt::join(words, ", "));
-}
-
 }  // namespace annulus::app

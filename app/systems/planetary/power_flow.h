@@ -12,12 +12,8 @@ namespace annulus::app {
 /// scene becomes its mirror image (directions reversed, helix of the other hand), which is what is computed.
 void check_power_flow(Scene& scene, std::vector<Problem>& problems);
 
-/// What a member does: "drives", "delivers", "held", or "idles" without speed.
+/// What a member does: "drives", "delivers", "held", or "carries torque at rest".
 [[nodiscard]] std::string role_of(const Scene& scene, const OperatingPoint& point, geometry::StageMember member);
-/// "sun drives, ring held, carrier delivers".
-[[nodiscard]] std::string power_flow_words(const Scene& scene, const OperatingPoint& point);
-
-inline constexpr geometry::StageMember stage_members[] = {geometry::StageMember::sun, geometry::StageMember::carrier,
-                                                          geometry::StageMember::ring};
+using geometry::stage_members;
 
 }  // namespace annulus::app

@@ -13,6 +13,8 @@
 
 namespace annulus::dynamics {
 
+using geometry::StageMember;
+
 namespace {
 
 /// Motion of the stage over time by DOF or spring; rigid ones give zeros.
@@ -118,10 +120,10 @@ BearingForces pin_forces(const PlanetaryStage& stage, const TimeSeries& series, 
 }
 
 /// Sum of all forces on the body without its supports.
-SupportReaction applied(const PlanetaryStage& stage, const TimeSeries& series, Motion& motion, CentralMember member) {
+SupportReaction applied(const PlanetaryStage& stage, const TimeSeries& series, Motion& motion, StageMember member) {
   const auto zero = Eigen::VectorXd::Zero(series.time.size());
   SupportReaction sum{zero, zero, zero};
-  if (member == CentralMember::carrier) {
+  if (member == StageMember::carrier) {
     const auto pins = pin_forces(stage, series, motion);
     for (int n = 0; n < stage.planets(); ++n) {
       const double c = std::cos(stage.planet_angles[n]), s = std::sin(stage.planet_angles[n]);
@@ -131,7 +133,7 @@ SupportReaction applied(const PlanetaryStage& stage, const TimeSeries& series, M
     }
     return sum;
   }
-  const bool sun = member == CentralMember::sun;
+  const bool sun = member == StageMember::sun;
   for (int n = 0; n < stage.planets(); ++n) {
     const double psi = stage.planet_angles[n] + (sun ? -stage.sun_working_angle : stage.ring_working_angle);
     const Eigen::VectorXd force = series.force.row(sun ? n : stage.planets() + n).transpose();
@@ -149,11 +151,9 @@ BearingForces bearing_forces(const PlanetaryStage& stage, const TimeSeries& seri
   return pin_forces(stage, series, motion);
 }
 
-SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& series, CentralMember member) {
-  const auto& body = member == CentralMember::sun    ? stage.sun
-                     : member == CentralMember::ring ? stage.ring
-                                                     : stage.carrier;
-  const std::string name = member == CentralMember::sun ? "sun" : member == CentralMember::ring ? "ring" : "carrier";
+SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& series, StageMember member) {
+  const auto& body = stage.body(member);
+  const std::string name = to_string(member);
   Motion motion(stage, series);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(series.time.size());
   SupportReaction result{zero, zero, zero};

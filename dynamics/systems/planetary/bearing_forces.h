@@ -21,8 +21,6 @@ struct BearingForces {
 /// must belong to the stage.
 [[nodiscard]] BearingForces bearing_forces(const PlanetaryStage& stage, const TimeSeries& series);
 
-enum class CentralMember { sun, ring, carrier };
-
 /// Reaction of the supports of a central body on the housing, one value per time: k x + c (x' - Omega y) and so on. For
 /// rigid supports it is the sum of the forces of the meshes (of the planets, for the carrier) on the body.
 struct SupportReaction {
@@ -31,6 +29,6 @@ struct SupportReaction {
   [[nodiscard]] Eigen::VectorXd magnitude() const { return (x.array().square() + y.array().square()).sqrt().matrix(); }
 };
 [[nodiscard]] SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& series,
-                                               CentralMember member);
+                                               geometry::StageMember member);
 
 }  // namespace annulus::dynamics

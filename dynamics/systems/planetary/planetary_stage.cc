@@ -8,7 +8,6 @@
 #include <numbers>
 #include <numeric>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "core/errors.h"
@@ -203,11 +202,7 @@ void PlanetaryStage::check() const {
         std::max({std::abs(speeds[StageMember::sun]), std::abs(carrier_speed), std::abs(ring_speed)});
     constexpr double rounding = 1e-9;
     if (std::abs(speeds[*held]) > rounding * fastest)
-      throw InputError(fmt::format("the {} is held and turns at {} rad/s",
-                                   *held == StageMember::sun       ? "sun"
-                                   : *held == StageMember::carrier ? "carrier"
-                                                                   : "ring",
-                                   speeds[*held]));
+      throw InputError(fmt::format("the {} is held and turns at {} rad/s", to_string(*held), speeds[*held]));
   }
   if (ring_speed != 0 && ring_coupling && !ring_coupling->modes.empty())
     throw InputError(
@@ -222,15 +217,12 @@ void PlanetaryStage::check() const {
         fmt::format("speed, torque and errors need the numbers of teeth of sun, planet and ring, not {}, {} and {}",
                     sun_teeth, planet_teeth, ring_teeth));
   if (sun_torque != 0) {
-    using geometry::StageMember;
-    for (const auto& [body, member, name] : {std::tuple{&sun, StageMember::sun, "sun"},
-                                             {&carrier, StageMember::carrier, "carrier"},
-                                             {&ring, StageMember::ring, "ring"}})
-      if (body->torsional_support == rigid && held != member)
+    for (const auto member : geometry::stage_members)
+      if (body(member).torsional_support == rigid && held != member)
         throw InputError(
             fmt::format("the {} cannot turn (rigid torsional support), so its torque would not reach the meshes; the "
                         "torque of the sun is {} N m",
-                        name, sun_torque));
+                        to_string(member), sun_torque));
     // Per metre of carrier motion the sun moves (cos a_s + cos a_r) metres: virtual work against the tooth ratio.
     const double ratio = carrier.radius * (std::cos(sun_working_angle) + std::cos(ring_working_angle)) / sun.radius;
     const double expected = 1 + static_cast<double>(ring_teeth) / sun_teeth;

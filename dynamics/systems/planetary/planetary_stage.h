@@ -114,6 +114,8 @@ struct PlanetaryStage {
   /// -m Omega^2 y_n makes the rotation drift away exponentially.
   bool rotating_frame = true;
 
+  [[nodiscard]] const CentralBody& body(geometry::StageMember member) const { return this->*body_of(member); }
+  [[nodiscard]] CentralBody& body(geometry::StageMember member) { return this->*body_of(member); }
   [[nodiscard]] int planets() const { return static_cast<int>(planet_angles.size()); }
   [[nodiscard]] double mesh_rate() const;        ///< Hz: z_r (Omega_c - Omega_r) / 2 pi
   [[nodiscard]] double mesh_frequency() const;   ///< Hz: |mesh_rate|
@@ -128,6 +130,14 @@ struct PlanetaryStage {
 
   /// Throws InputError with name and value of the quantity when the stage cannot be assembled.
   void check() const;
+
+ private:
+  static CentralBody PlanetaryStage::*body_of(geometry::StageMember member) {
+    using geometry::StageMember;
+    return member == StageMember::sun    ? &PlanetaryStage::sun
+           : member == StageMember::ring ? &PlanetaryStage::ring
+                                         : &PlanetaryStage::carrier;
+  }
 };
 
 /// Terms of the transmission error e (m) of the meshes of planet n from eccentricities and position errors alone, after

@@ -42,9 +42,9 @@ StageMotion stage_motion(const PlanetaryStage& stage, const DynamicResponse& res
   const auto& series = response.series;
   const auto samples_per_cycle = static_cast<int>(series.time.size() / response.window_cycles);
   StageMotion motion{bearing_forces(stage, series),
-                     support_reaction(stage, series, CentralMember::sun),
-                     support_reaction(stage, series, CentralMember::ring),
-                     support_reaction(stage, series, CentralMember::carrier),
+                     support_reaction(stage, series, geometry::StageMember::sun),
+                     support_reaction(stage, series, geometry::StageMember::ring),
+                     support_reaction(stage, series, geometry::StageMember::carrier),
                      orbit(stage, series),
                      poincare_section(stage, series, samples_per_cycle),
                      {}};
