@@ -73,7 +73,7 @@ struct RootSection {
 
 /// Y_B [ISO6336-3] of a rim of thickness `rim` (m) between the root and a bore or the outside, as a factor of the root
 /// stress: 1 from 1.2 tooth heights on (internal: 3.5 modules). Thinner than half a tooth height (1.75 modules) counts
-/// as that: the standard tells to avoid it.
+/// as that: the standard advises against it.
 [[nodiscard]] double rim_thickness_factor(const Gear& gear, double rim);
 
 }  // namespace annulus::geometry

@@ -14,6 +14,7 @@
 #include "app/results/content_id.h"
 #include "app/scene/scene_schema.h"
 #include "app/systems/helical_pair/pair_model.h"
+#include "app/systems/planetary/power_flow.h"
 #include "core/errors.h"
 #include "core/units.h"
 
@@ -194,7 +195,9 @@ const std::vector<std::string> stage_tables = {"stage",           "errors",     
 
 }  // namespace
 
-std::string rexs_text(const Scene& scene, const std::string& ring) {
+std::string rexs_text(const Scene& computed, const std::string& ring) {
+  const bool planetary_stage = computed.stage.kind == "planetary";
+  const Scene scene = planetary_stage ? as_drawn(computed, make_geometry(computed).operating_point) : computed;
   if (scene.stage.kind == "two_k_v")
     throw InputError(scene.file.string() +
                      ": REXS has no arc-tooth gears; only planetary stages and pairs can be exported");

@@ -25,7 +25,7 @@ OperatingPoint operating_point(const StageInput& stage, int sun_teeth, int ring_
   point.driver = stage.drives;
   auto& flow = point.flow;
   flow.speed = stage_speeds(stage, sun_teeth, ring_teeth);
-  // The torque of the driver acts in its direction; the given one tells how large all of them are.
+  // The torque of the driver acts in its direction; the given one determines the size of all.
   const double drive = flow.speed[point.driver];
   flow.torque = geometry::member_torques(sun_teeth, ring_teeth, point.driver,
                                          std::copysign(stage.power ? *stage.power / std::abs(drive) : 1.0, drive));

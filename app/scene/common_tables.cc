@@ -65,8 +65,7 @@ Table material_table() {
       .fallback(0.3, "steel")
       .from(0, 0.4999);
   material
-      .key("density_kg_per_m3", &MaterialInput::density,
-           "Density: for modes of a ring and moments of inertia that are not given.")
+      .key("density_kg_per_m3", &MaterialInput::density, "Density: for the modes of a ring; masses are checked by it.")
       .fallback(7850.0, "steel")
       .from(100, 30000);
   return material.done();

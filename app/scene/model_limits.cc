@@ -45,9 +45,9 @@ std::string small_displacements_rule() {
   return fmt::format("the model is for small displacements and strains, up to {} modules", largest_deflection);
 }
 
-void check_load(const Scene& scene, const char* key, double force) {
+void check_load(const Scene& scene, const char* key, double force, double youngs_modulus) {
   const double in_modules =
-      force / (usual_mesh_stiffness * scene.material.youngs_modulus * scene.stage.face_width) / scene.stage.module;
+      force / (usual_mesh_stiffness * youngs_modulus * scene.stage.face_width) / scene.stage.module;
   if (in_modules <= largest_deflection) return;
   throw InputError(
       fmt::format("{}: each mesh carries {} N. Teeth of this module, width and material then deflect by about {:.2g} "

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/export/rexs.h"
 #include "app/model/gear_system.h"
 #include "app/plan/gear_geometry.h"
 #include "app/scene/overrides.h"
@@ -175,7 +176,32 @@ BOOST_AUTO_TEST_CASE(a_sweep_of_the_speed_at_a_torque_solves_no_elements) {
   BOOST_TEST(tables("drives = \"carrier\"\npower_kW = 200\n") == 2);
 }
 
-BOOST_AUTO_TEST_CASE(results_tell_who_drives) {
+// What is computed as its mirror image is drawn and exported as it is.
+BOOST_AUTO_TEST_CASE(drawings_keep_the_hand_of_the_helix) {
+  const auto text = [](const char* drives) {
+    auto scene = flowing(std::string(drives) + "sun_speed_rpm = 1128\n");
+    for (const auto& [from, to] : {std::pair{"module_mm = 3.8", "helix_angle_deg = 5\nmodule_mm = 3.8"},
+                                   {"centre_distance_mm = 201", "centre_distance_mm = 202"},
+                                   {"profile_shift = 0.1516", "profile_shift = 0.4"}})
+      scene = test::replaced(scene, from, to);
+    return scene;
+  };
+  const auto scene = [&](const char* drives) { return app::parse_scene(text(drives), "scene.toml"); };
+  const auto forwards = scene(""), back = scene("drives = \"carrier\"\n");
+  BOOST_TEST(back.stage.helix_angle == -forwards.stage.helix_angle);  // as it is computed
+  const auto drawn = [](const app::Scene& of) { return app::make_system(of)->drawing().gears; };
+  const auto expected = drawn(forwards), found = drawn(back);
+  BOOST_TEST_REQUIRE(expected.size() == 3U);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    BOOST_TEST(found[i].gear.helix_angle() == expected[i].gear.helix_angle());
+    BOOST_TEST(found[i].gear.helix_angle() != 0.0);
+  }
+  const auto exported = app::rexs_text(back, "held"), other = app::rexs_text(forwards, "held");
+  const std::string key = "helix_angle_reference_diameter";
+  BOOST_TEST(exported.substr(exported.find(key), 80) == other.substr(other.find(key), 80));
+}
+
+BOOST_AUTO_TEST_CASE(results_state_who_drives) {
   const test::TemporaryFolder folder("flow");
   run(flowing("held = \"carrier\"\ndrives = \"ring\"\nring_speed_rpm = 300\n"), folder.path());
   const auto json = nlohmann::json::parse(read_file(folder.path() / "summary.json"));

@@ -142,7 +142,9 @@ void check_pair_geometry(const Scene& scene, const PairGeometry& geometry) {
     check_bearing(scene, "pinion.bearing_axial_N_per_m", scene.pinion.bearing_axial, along);
     check_bearing(scene, "wheel.bearing_axial_N_per_m", scene.wheel.bearing_axial, along);
   }
-  if (elastic) check_load(scene, load, geometry.transverse_force);
+  if (elastic)
+    check_load(scene, load, geometry.transverse_force,
+               fem::MeshMaterials(material_of(scene, scene.pinion), material_of(scene, scene.wheel)).youngs_modulus());
 }
 
 }  // namespace annulus::app

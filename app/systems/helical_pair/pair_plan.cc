@@ -68,7 +68,7 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
     for (const auto& [name, gear, input] :
          {std::tuple{"pinion", &geometry.pinion(), &scene.pinion}, {"wheel", &geometry.wheel(), &scene.wheel}}) {
       const double r = gear->reference_radius();
-      const double disc = std::numbers::pi * r * r * scene.stage.face_width * scene.material.density;
+      const double disc = std::numbers::pi * r * r * scene.stage.face_width * material_of(scene, *input).density;
       if (input->mass && std::abs(*input->mass / disc - 1) > 0.25)
         list.push_back(fmt::format("The {} weighs {} kg, a solid disc of its reference circle and face width {} kg.",
                                    name, to_text(*input->mass, 4), to_text(disc, 3)));

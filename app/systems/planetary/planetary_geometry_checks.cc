@@ -99,7 +99,12 @@ void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry) 
       check_prescribed_mesh(scene, load, *mesh, mesh_force);
   }
   for (std::size_t i = 0; scene.tolerances && i < scene.rings.size(); ++i) (void)stage_tolerances(scene, geometry, i);
-  if (sun || ring) check_load(scene, load, mesh_force);
+  const auto planet = material_of(scene, scene.planet);
+  const auto check_mesh = [&](const GearInput& wheel) {
+    check_load(scene, load, mesh_force, fem::MeshMaterials(planet, material_of(scene, wheel)).youngs_modulus());
+  };
+  if (sun) check_mesh(scene.sun);
+  for (std::size_t i = 0; ring && i < scene.rings.size(); ++i) check_mesh(scene.rings[i]);
   for (std::size_t i = 0; i < scene.rings.size(); ++i) check_ring_supports(scene, geometry, i);
 }
 

@@ -12,6 +12,7 @@
 #include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/planetary_scene.h"
+#include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_warnings.h"
 #include "app/systems/shared/mesh_names.h"
@@ -48,9 +49,10 @@ class PlanetarySystem final : public GearSystem {
   }
 
   [[nodiscard]] DrawingData drawing() const override {
-    const auto& sun_mesh = geometry().sun_mesh();
+    const auto drawn = make_geometry(as_drawn(scene(), geometry().operating_point));
+    const auto& sun_mesh = drawn.sun_mesh();
     DrawingData data{{{"sun", sun_mesh.wheel()}, {"planet", sun_mesh.pinion()}}, {{"planet and sun", sun_mesh}}};
-    for (const auto& ring : geometry().rings) {
+    for (const auto& ring : drawn.rings) {
       const auto name = fmt::format("ring '{}'", ring.name);
       data.gears.push_back({name, ring.set.ring()});
       data.pairs.push_back({"planet and " + name, ring.set.ring_mesh()});

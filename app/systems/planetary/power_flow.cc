@@ -26,6 +26,30 @@ const std::optional<double>& given_speed(const StageInput& stage, StageMember me
                                           : stage.ring_speed;
 }
 
+/// Angles in the mirror image count the other way round. Planets keep their numbers.
+void mirror(Scene& scene) {
+  auto& stage = scene.stage;
+  stage.helix_angle = -stage.helix_angle;
+  const auto reversed = [](double angle) { return angle == 0 ? 0 : 2 * std::numbers::pi - angle; };
+  const auto planets = static_cast<std::size_t>(stage.planets);
+  if (stage.planet_angles.empty() && planets > 0 && (scene.sun.teeth + scene.rings.front().teeth) % stage.planets == 0)
+    for (std::size_t n = 0; n < planets; ++n)
+      stage.planet_angles.push_back(2 * std::numbers::pi * static_cast<double>(n) / static_cast<double>(planets));
+  for (double& angle : stage.planet_angles) angle = reversed(angle);
+  for (auto& ring : scene.rings) {
+    for (double& angle : ring.pin_angles) angle = -angle;
+    for (auto* first : {&ring.first_pin_angle, &ring.first_spline_angle, &ring.first_bolt_angle})
+      if (*first) **first = -**first;
+  }
+  auto& e = scene.errors;
+  for (auto* phases : {&e.planet_eccentricity_phase, &e.planet_pin_position_phase})
+    for (double& phase : *phases) phase = -phase;
+  for (auto* body : {&e.sun, &e.ring, &e.carrier}) {
+    body->eccentricity_phase = -body->eccentricity_phase;
+    body->position_phase = -body->position_phase;
+  }
+}
+
 class PowerFlowChecks : KeyChecks {
  public:
   using KeyChecks::KeyChecks;
@@ -37,7 +61,7 @@ class PowerFlowChecks : KeyChecks {
                                                  to_string(stage().drives), fmt::join(turning(), " or ")));
     if (number_of_speeds() && usable("sun.teeth") && usable("ring.teeth") && !scene_.rings.empty() &&
         scene_.sun.teeth > 0 && scene_.rings.front().teeth > 0 && values_of_speeds() && clockwise_torque())
-      mirror();
+      mirror(scene_);
   }
 
  private:
@@ -114,34 +138,15 @@ class PowerFlowChecks : KeyChecks {
     return geometry::member_torques(scene_.sun.teeth, scene_.rings.front().teeth, stage().drives,
                                     speeds()[stage().drives])[StageMember::sun] < 0;
   }
-
-  /// Angles in the mirror image count the other way round. Planets keep their numbers.
-  void mirror() {
-    auto& stage = scene_.stage;
-    stage.helix_angle = -stage.helix_angle;
-    const auto reversed = [](double angle) { return angle == 0 ? 0 : 2 * std::numbers::pi - angle; };
-    const auto planets = static_cast<std::size_t>(stage.planets);
-    if (stage.planet_angles.empty() && planets > 0 &&
-        (scene_.sun.teeth + scene_.rings.front().teeth) % stage.planets == 0)
-      for (std::size_t n = 0; n < planets; ++n)
-        stage.planet_angles.push_back(2 * std::numbers::pi * static_cast<double>(n) / static_cast<double>(planets));
-    for (double& angle : stage.planet_angles) angle = reversed(angle);
-    for (auto& ring : scene_.rings) {
-      for (double& angle : ring.pin_angles) angle = -angle;
-      for (auto* first : {&ring.first_pin_angle, &ring.first_spline_angle, &ring.first_bolt_angle})
-        if (*first) **first = -**first;
-    }
-    auto& e = scene_.errors;
-    for (auto* phases : {&e.planet_eccentricity_phase, &e.planet_pin_position_phase})
-      for (double& phase : *phases) phase = -phase;
-    for (auto* body : {&e.sun, &e.ring, &e.carrier}) {
-      body->eccentricity_phase = -body->eccentricity_phase;
-      body->position_phase = -body->position_phase;
-    }
-  }
 };
 
 }  // namespace
+
+Scene as_drawn(const Scene& scene, const OperatingPoint& point) {
+  Scene drawn = scene;
+  if (point.mirrored) mirror(drawn);
+  return drawn;
+}
 
 void check_power_flow(Scene& scene, std::vector<Problem>& problems) { PowerFlowChecks(scene, problems).run(); }
 

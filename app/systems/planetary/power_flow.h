@@ -12,6 +12,9 @@ namespace annulus::app {
 /// scene becomes its mirror image (directions reversed, helix of the other hand), which is what is computed.
 void check_power_flow(Scene& scene, std::vector<Problem>& problems);
 
+/// The scene as its drawings have it: the mirror image of one that is computed as its mirror image.
+[[nodiscard]] Scene as_drawn(const Scene& scene, const OperatingPoint& point);
+
 /// What a member does: "drives", "delivers", "held", or "carries torque at rest".
 [[nodiscard]] std::string role_of(const Scene& scene, const OperatingPoint& point, geometry::StageMember member);
 using geometry::stage_members;

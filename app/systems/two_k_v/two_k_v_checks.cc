@@ -109,7 +109,9 @@ void check_two_k_v_geometry(const Scene& scene, const geometry::GearPair& pair) 
     check_bearing(scene, "crank.bearing_N_per_m", *scene.crank.bearing, crank);
     check_bearing(scene, "arc_gear.bearing_N_per_m", *scene.arc_gear.bearing, arc_force);
   }
-  if (elastic) check_load(scene, load, sun_force);
+  if (elastic)
+    check_load(scene, load, sun_force,
+               fem::MeshMaterials(material_of(scene, scene.planet), material_of(scene, scene.sun)).youngs_modulus());
 }
 
 }  // namespace annulus::app
