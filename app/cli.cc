@@ -23,6 +23,7 @@
 #include "app/process/progress.h"
 #include "app/process/system_limits.h"
 #include "app/results/content_id.h"
+#include "app/scene/example_scenes.h"
 #include "app/scene/scene_value.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -40,6 +41,13 @@ void add_common(CLI::App& command, Arguments& arguments) {
       ->capture_default_str();
   auto* quiet = command.add_flag("--quiet,-q", arguments.quiet, "Warnings and errors only");
   command.add_flag("--verbose,-v", arguments.verbose, "More messages")->excludes(quiet);
+}
+
+/// One line each, for the end of a help text.
+std::string example_names() {
+  std::string text;
+  for (const auto& example : example_scenes()) text += "  " + example.name + "\n";
+  return text;
 }
 
 CLI::App* add_command(CLI::App& app, Arguments& arguments, const char* name, const char* what) {
@@ -198,12 +206,15 @@ void declare(CLI::App& app, Arguments& arguments) {
   auto* fresh = app.add_subcommand("new", "Writes a commented scene to standard output");
   fresh->add_option("kind", arguments.kind, "Kind of stage: planetary, helical_pair, two_k_v");
   fresh->add_option("--rexs", arguments.rexs, "Fill it with the gear data of this REXS file");
+  fresh->add_option("--example", arguments.example, "The scene of this name from the project's examples and cases");
   fresh->add_flag("--minimal", arguments.minimal, "A planetary stage with as few lines as possible");
   add_common(*fresh, arguments);
   examples(fresh,
            "  annulus new planetary > my.toml\n"
            "  annulus new --minimal > my.toml       25 lines\n"
-           "  annulus new --rexs gearbox.rexs > my.toml");
+           "  annulus new --rexs gearbox.rexs > my.toml\n"
+           "  annulus new --example grc_750kw/planetary_stage > my.toml\nScenes for --example:\n" +
+               example_names());
 
   auto* explain_key = app.add_subcommand("explain", "Explains keys of a scene file, results and terms");
   explain_key->add_option("key", arguments.key,

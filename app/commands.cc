@@ -22,6 +22,7 @@
 #include "app/results/user_cache.h"
 #include "app/run/finished_run.h"
 #include "app/run/pipeline.h"
+#include "app/scene/example_scenes.h"
 #include "app/scene/new_scene.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene_files.h"
@@ -33,7 +34,6 @@
 #include "core/json.h"
 #include "core/log.h"
 #include "core/result_store.h"
-#include "example_scenes.h"
 
 namespace annulus::app {
 
@@ -321,9 +321,16 @@ void cache_command(const Arguments& arguments) {
 
 void new_command(const Arguments& arguments) {
   if (arguments.minimal) {
-    if (!arguments.rexs.empty() || (!arguments.kind.empty() && arguments.kind != "planetary"))
-      throw InputError("--minimal: writes a planetary stage; leave out the kind and --rexs");
-    fmt::print("{}", minimal_example);
+    if (!arguments.rexs.empty() || !arguments.example.empty() ||
+        (!arguments.kind.empty() && arguments.kind != "planetary"))
+      throw InputError("--minimal: writes a planetary stage; leave out the kind, --rexs and --example");
+    fmt::print("{}", example_scene("minimal"));
+    return;
+  }
+  if (!arguments.example.empty()) {
+    if (!arguments.rexs.empty() || !arguments.kind.empty())
+      throw InputError("--example: the example has its kind and its data; leave out the kind and --rexs");
+    fmt::print("{}", example_to_start_from(arguments.example));
     return;
   }
   if (!arguments.rexs.empty()) {

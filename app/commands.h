@@ -8,7 +8,7 @@ namespace annulus::app {
 
 /// What the command line says, whatever the command.
 struct Arguments {
-  std::string scene, out, cache, key, format, ring, kind, rexs, shell;
+  std::string scene, out, cache, key, format, ring, kind, rexs, example, shell;
   std::string command_line;          ///< as a whole
   std::vector<std::string> folders;  ///< of compare
   std::optional<std::string> budget, max_memory, max_time;

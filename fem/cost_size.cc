@@ -33,7 +33,9 @@ double nodes_of_rim(const geometry::SectorResolution& r, double rows, int degree
 double solid_unknowns(const LoadedMeshProblem& problem, const BodyResolution& r, const geometry::Gear& gear, bool wheel,
                       int degree, const SolvedFace& face) {
   const auto& section = r.section;
-  double nodes = nodes_of_section(section, degree) * (degree * face.solved(r.face_cells) + 1);
+  const double overhang = (wheel ? problem.wheel_overhang : problem.planet_overhang).total() / (face.half ? 2 : 1);
+  const double cells = face.solved(r.face_cells) + std::ceil(r.face_cells * overhang / problem.face_width);
+  double nodes = nodes_of_section(section, degree) * (degree * cells + 1);
   // The nodes of a plane of symmetry stay in it.
   if (face.half) return 3 * nodes - nodes_of_section(section, degree);
   if (!wheel) return 3 * nodes;
@@ -84,7 +86,9 @@ double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings
   if (settings.fidelity != Fidelity::solid) return 0;
   const SupportSites sites = support_sites(problem);
   const int cells = solid_resolution(level, settings.degree, problem.pair.overlap_ratio()).face_cells;
-  const auto slices = solved_face(problem, settings).edges(2 * cells).size() - 1;
+  const bool helical = problem.pair.pinion().helix_angle() != 0;
+  const auto slices =
+      solved_face(problem, settings).edges(helical ? support_slices(problem, cells) : 2 * cells).size() - 1;
   double forces = 0;
   for (const auto& site : sites.sites) forces += static_cast<double>(site.directions.size() * slices);
   return forces;

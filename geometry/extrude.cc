@@ -95,27 +95,37 @@ std::vector<Edge> plane_edges(const Mesh& plane) {
 /// Vertices of one level, created when they are first used: a level beside a sleeve has no vertices at the teeth.
 class LevelVertices {
  public:
-  LevelVertices(const Mesh& plane, Mesh& solid, std::size_t levels, double twist)
+  LevelVertices(const Mesh& plane, Mesh& solid, std::size_t levels, const ExtrudeOptions& options)
       : plane_(plane),
         solid_(solid),
-        twist_(twist),
+        options_(options),
         ids_(levels, std::vector<VertexId>(plane.vertices.size(), unused)) {}
 
   VertexId operator()(std::size_t level, VertexId v, double z) {
     auto& id = ids_[level][v];
     if (id == unused) {
       id = static_cast<VertexId>(solid_.vertices.size());
-      const Eigen::Vector2d p = Eigen::Rotation2Dd(twist_ * z) * plane_.vertices[v].head<2>();
+      const Eigen::Vector2d in_section = plane_.vertices[v].head<2>();
+      const Eigen::Vector2d p = Eigen::Rotation2Dd(turn(in_section.norm(), z)) * in_section;
       solid_.vertices.emplace_back(p.x(), p.y(), z);
     }
     return id;
   }
 
  private:
+  /// rad, of the section at z.
+  [[nodiscard]] double turn(double radius, double z) const {
+    if (!options_.straight) return options_.twist * z;
+    const auto& straight = *options_.straight;
+    const double faded =
+        std::clamp((radius - straight.twisted_radius) / (straight.radius - straight.twisted_radius), 0.0, 1.0);
+    return options_.twist * (z + faded * (straight.z - z));
+  }
+
   static constexpr VertexId unused = std::numeric_limits<VertexId>::max();
   const Mesh& plane_;
   Mesh& solid_;
-  double twist_;
+  const ExtrudeOptions& options_;
   std::vector<std::vector<VertexId>> ids_;
 };
 
@@ -143,7 +153,7 @@ Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks, const Extrude
 
   Mesh solid;
   solid.dimension = 3;
-  LevelVertices vertex(plane, solid, slabs.size() + 1, options.twist);
+  LevelVertices vertex(plane, solid, slabs.size() + 1, options);
   for (std::size_t k = 0; k < slabs.size(); ++k) {
     const Slab& slab = slabs[k];
     for (std::size_t c = 0; c < plane.cells.size(); ++c) {

@@ -96,7 +96,9 @@ Gear::Gear(const GearParameters& parameters) : p_(parameters) {
   transverse_pressure_angle_ = std::atan(std::tan(p_.pressure_angle) / std::cos(p_.helix_angle));
   base_radius_ = reference_radius() * std::cos(transverse_pressure_angle_);
   check_tip(*this);
-  form_radius_ = std::hypot(base_radius(), RootFillet(*this).form_roll());
+  const RootFillet fillet(*this);
+  form_radius_ = std::hypot(base_radius(), fillet.form_roll());
+  undercut_ = fillet.undercut();
   const double sign = kind() == GearKind::external ? 1 : -1;
   require_gear(
       sign * (tip_radius() - form_radius_) > 0, p_,

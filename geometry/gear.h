@@ -27,12 +27,13 @@ struct GearParameters {
   double lead_crowning = 0;               ///< m, parabolic, removed at both ends of the face width
   double lead_slope = 0;                  ///< m, removed linearly towards +z (> 0) or -z (< 0), end to end
   double helix_angle = 0;                 ///< beta at the reference cylinder, rad; 0 = spur, > 0 = right hand
+  double axial_offset = 0;                ///< m, of the middle of the face along the axis
 };
 
 /// A gear with its derived dimensions (ISO 21771). Angles and thicknesses on circles are those of the transverse
 /// section unless they say otherwise. Construction throws GeometryError with the reason when the gear cannot exist: tip
-/// below base, pointed tooth (thinner than 0.2 modules at the tip, in the normal section), undercut, no room for a root
-/// fillet, non-positive sizes, pressure angle outside 10 to 35 degrees, helix angle beyond 45 degrees.
+/// below base, pointed tooth (thinner than 0.2 modules at the tip, in the normal section), deep undercut, no room for a
+/// root fillet, non-positive sizes, pressure angle outside 10 to 35 degrees, helix angle beyond 45 degrees.
 class Gear {
  public:
   explicit Gear(const GearParameters& parameters);
@@ -55,6 +56,8 @@ class Gear {
   [[nodiscard]] double base_pitch() const;
   /// Radius at which the involute starts at the root side (form circle: end of the generated trochoid or fillet).
   [[nodiscard]] double form_radius() const { return form_radius_; }
+  /// Whether the rack corner cuts into the involute above the base circle: the form circle is then an edge.
+  [[nodiscard]] bool undercut() const { return undercut_; }
   /// Half the angle a tooth (the material) covers at radius r >= r_b, from the involutes of both flanks, rad.
   [[nodiscard]] double tooth_half_angle(double radius) const;
   /// Tooth thickness along the arc at radius r, m.
@@ -67,6 +70,7 @@ class Gear {
   GearParameters p_;
   double transverse_module_ = 0, transverse_pressure_angle_ = 0, base_radius_ = 0;  // asked for in inner loops
   double form_radius_ = 0;
+  bool undercut_ = false;
 };
 
 /// inv(alpha) = tan(alpha) - alpha, rad, and its inverse for values >= 0.

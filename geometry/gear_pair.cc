@@ -97,6 +97,14 @@ GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance
   roll_high_ = roll_at(pinion_, pinion_.tip_radius());
   check_tips();
   if (internal()) check_internal_tips();
+  if (!(common_face().width > 0)) {
+    const auto &p = pinion_.parameters(), &w = wheel_.parameters();
+    throw GeometryError(
+        fmt::format("{}: the faces do not overlap: widths of {:.4f} and {:.4f} mm, whose middles are {:.4f} mm apart "
+                    "along the axis; change axial_offset",
+                    pair_name(pinion_, wheel_), p.face_width / units::mm, w.face_width / units::mm,
+                    std::abs(p.axial_offset - w.axial_offset) / units::mm));
+  }
   if (total_contact_ratio() < 1) {
     throw GeometryError(
         fmt::format("{} has a contact ratio of {:.4f}; at least 1 is needed: {} or reduce the working pressure angle "
@@ -121,10 +129,20 @@ GearPair::TipClearance GearPair::tip_clearance() const {
 
 double GearPair::contact_ratio() const { return (roll_high_ - roll_low_) / pinion_.base_pitch(); }
 
+CommonFace GearPair::common_face() const {
+  const auto &p = pinion_.parameters(), &w = wheel_.parameters();
+  const double p_low = p.axial_offset - p.face_width / 2, p_high = p.axial_offset + p.face_width / 2;
+  const double w_low = w.axial_offset - w.face_width / 2, w_high = w.axial_offset + w.face_width / 2;
+  const double low = std::max(p_low, w_low), high = std::min(p_high, w_high);
+  // Differences of typed values: rounding is no overhang.
+  const double rounding = 1e-9 * std::max(p.face_width, w.face_width);
+  const auto beyond = [&](double length) { return length > rounding ? length : 0.0; };
+  return {high - low, {beyond(low - p_low), beyond(p_high - high)}, {beyond(low - w_low), beyond(w_high - high)}};
+}
+
 double GearPair::overlap_ratio() const {
   const auto& p = pinion_.parameters();
-  const double width = std::min(p.face_width, wheel_.parameters().face_width);
-  return width * std::sin(std::abs(p.helix_angle)) / (std::numbers::pi * p.module);
+  return common_face().width * std::sin(std::abs(p.helix_angle)) / (std::numbers::pi * p.module);
 }
 
 double GearPair::wheel_roll_length(double planet_roll) const {

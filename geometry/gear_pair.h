@@ -7,6 +7,18 @@ namespace annulus::geometry {
 /// Which gear of a pair drives the other.
 enum class Driver { pinion, wheel };
 
+/// How far the teeth of a gear reach beyond a face, m.
+struct Overhang {
+  double below = 0, above = 0;  ///< towards -z and +z
+  [[nodiscard]] double total() const { return below + above; }
+};
+
+/// The part of the axis on which both gears of a pair have teeth.
+struct CommonFace {
+  double width = 0;  ///< m
+  Overhang pinion, wheel;
+};
+
 /// Two gears in mesh at a working centre distance: sun and planet (external), or planet and ring (internal).
 ///
 /// Lengths along the line of action are measured on the *pinion* by its roll length rho = r_b tan(alpha_y), the
@@ -14,7 +26,8 @@ enum class Driver { pinion, wheel };
 /// transverse section. Construction throws GeometryError with the reason: different base pitches or helix angles, hands
 /// that do not fit (opposite ones for an external pair, equal ones for an internal pair), no working angle, negative
 /// backlash, tip interference (a tip that reaches below the mate's form circle or into its root), involute
-/// interference, interfering tips of internal gears with few teeth difference, total contact ratio below 1.
+/// interference, interfering tips of internal gears with few teeth difference, faces that do not overlap, total contact
+/// ratio below 1.
 class GearPair {
  public:
   /// `wheel` is the sun (external) or the ring (internal). Centre distance in m. In planetary sets the sun drives the
@@ -44,7 +57,8 @@ class GearPair {
   };
   [[nodiscard]] TipClearance tip_clearance() const;
   [[nodiscard]] double contact_ratio() const;  ///< epsilon_alpha, transverse
-  /// epsilon_beta = b sin|beta| / (pi m_n) with the smaller face width; 0 for spur gears.
+  [[nodiscard]] CommonFace common_face() const;
+  /// epsilon_beta = b sin|beta| / (pi m_n) with the width of the common face; 0 for spur gears.
   [[nodiscard]] double overlap_ratio() const;
   [[nodiscard]] double total_contact_ratio() const { return contact_ratio() + overlap_ratio(); }  ///< epsilon_gamma
   /// Theoretical path of contact on the pinion: roll lengths at its two ends and at the pitch point.

@@ -32,10 +32,6 @@ double dedendum(const Gear& gear) {
   return depth / gear.parameters().module + iso_shift(gear);
 }
 
-double face_width(const GearPair& pair) {
-  return std::min(pair.pinion().parameters().face_width, pair.wheel().parameters().face_width);
-}
-
 /// theta = 2 G / z tan(theta) - H [ISO6336-3, 6.2.2].
 double tangent_angle(double g, double teeth, double h, double start) {
   double theta = start;
@@ -90,7 +86,7 @@ double nominal_flank_pressure(const GearPair& pair, double tangential_force, dou
   const double u = iso_teeth(pair.wheel()) / pair.pinion().teeth();
   const double diameter = 2 * pair.pinion().reference_radius();
   return zone * elasticity * contact_ratio_factor(pair) *
-         std::sqrt(tangential_force / (diameter * face_width(pair)) * (u + 1) / u);
+         std::sqrt(tangential_force / (diameter * pair.common_face().width) * (u + 1) / u);
 }
 
 RootSection root_section(const GearPair& pair, const Gear& gear, const std::optional<PinionCutter>& cutter) {
@@ -131,7 +127,12 @@ RootSection root_section(const GearPair& pair, const Gear& gear, const std::opti
                        2;
 
   const double slenderness = chord / lever, notch_parameter = chord / (2 * radius);
+  const CommonFace face = pair.common_face();
+  const auto& pinion = pair.pinion().parameters();
+  const bool as_pinion = p.face_width == pinion.face_width && p.axial_offset == pinion.axial_offset;
+  const Overhang& beyond = as_pinion ? face.pinion : face.wheel;
   RootSection root;
+  root.face_width = face.width + std::min(beyond.below, p.module) + std::min(beyond.above, p.module);
   root.chord = chord * p.module;
   root.lever = lever * p.module;
   root.fillet_radius = radius * p.module;
@@ -143,7 +144,7 @@ RootSection root_section(const GearPair& pair, const Gear& gear, const std::opti
 
 double nominal_root_stress(const Gear& gear, const RootSection& root, double tangential_force) {
   const auto& p = gear.parameters();
-  return tangential_force / (p.face_width * p.module) * root.form_factor * root.stress_correction;
+  return tangential_force / (root.face_width * p.module) * root.form_factor * root.stress_correction;
 }
 
 double rim_thickness_factor(const Gear& gear, double rim) {

@@ -54,6 +54,7 @@ struct PinionCutter {
 
 /// Critical section of a tooth root and its factors [ISO6336-3, 6.2]; lengths in m.
 struct RootSection {
+  double face_width = 0;         ///< m: the common face and of an overhang up to one module [ISO6336-3, 5.3]
   double chord = 0;              ///< s_Fn, at the 30 degree tangents (internal: 60 degree)
   double lever = 0;              ///< h_Fe, of a force at the outer point of single pair contact
   double fillet_radius = 0;      ///< rho_F

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,12 @@ struct ExtrudeOptions {
   /// Angle by which the section is turned counter-clockwise per metre of z, rad/m (ToothProfile::twist); the plane mesh
   /// is the section at z = 0. The sides stay images of each other under rotation by a pitch.
   double twist = 0;
+  /// The twist fades out between two radii (m): beyond the second one the body runs parallel to the axis, turned as the
+  /// section at `straight_z` (m). Absent: all of the section is twisted.
+  struct Straight {
+    double twisted_radius = 0, radius = 0, z = 0;
+  };
+  std::optional<Straight> straight{};
   /// The lower end of the lowest stack gets `end_low` from this radius outwards, `inner` within: a ring without a
   /// sleeve that is held by the rest of its end face, m.
   double end_low_radius = 0;

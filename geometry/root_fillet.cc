@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <numbers>
@@ -66,16 +67,10 @@ void RootFillet::generate(const Gear& gear) {
   corner_depth_ = reference_radius_ - root_radius_ - radius_;
   corner_width_ = radius_ * widening;
   beta_end_ = half_pi - transverse;
-  const double reach = rack_contact(beta_end_).reach;
-  form_roll_ = reference_radius_ * std::sin(transverse) - reach;
-  if (form_roll_ < 0) {
-    throw GeometryError(fmt::format(
-        "the external gear with {} teeth is undercut: the rack corner reaches {:.4f} mm beyond the start of the "
-        "involute; raise the profile shift from {:.4f} by {:.4f} or use more teeth",
-        p.teeth, -form_roll_ / units::mm, p.profile_shift, -form_roll_ * std::sin(transverse) / m));
-  }
+  form_roll_ = reference_radius_ * std::sin(transverse) - rack_contact(beta_end_).reach;
+  if (form_roll_ < 0) cut_involute(gear, transverse);
   // Regular envelope: the radius has to grow along the whole fillet (only far too large positive shifts fail).
-  const double c = std::cos(beta_end_);
+  const double c = std::cos(beta_end_), reach = rack_contact(beta_end_).reach;
   const double curvature_radius =
       std::pow(corner_width_ * radius_, 2) / std::pow(std::hypot(corner_width_ * std::sin(beta_end_), radius_ * c), 3);
   if (reference_radius_ * curvature_radius + reach * (reach - curvature_radius) / c <= 0) {
@@ -84,6 +79,39 @@ void RootFillet::generate(const Gear& gear) {
                     "use a smaller profile shift or root diameter",
                     p.teeth, p.profile_shift));
   }
+}
+
+void RootFillet::cut_involute(const Gear& gear, double transverse) {
+  const auto& p = gear.parameters();
+  const double whole = beta_end_;
+  const auto at = [&](double beta) {
+    const double t = 1 - beta / whole;  // beta_end_ is still the whole one
+    return point(t);
+  };
+  // Polar angle of the fillet beyond the involute at its radius: negative inside of the tooth. The involute has no part
+  // below the base circle.
+  const auto beyond = [&](double beta) {
+    const Eigen::Vector2d q = at(beta);
+    return std::atan2(q.y(), q.x()) - gear.tooth_half_angle(std::max(q.norm(), base_radius_));
+  };
+  const auto [deepest, depth] = boost::math::tools::brent_find_minima(beyond, whole / 2, whole, 40);
+  const double last = beyond(whole);
+  constexpr double most = 2;  // modules of roll length: beyond it the neck of the tooth is another body
+  if (depth < 0 && last > 0) {
+    const double beta = bracketed_root(beyond, deepest, whole, depth, last), radius = at(beta).norm();
+    const double over = std::sqrt(std::max(0.0, (radius - base_radius_) * (radius + base_radius_)));
+    if (radius > base_radius_ && -form_roll_ <= most * p.module) {
+      undercut_ = true;
+      form_roll_ = over;
+      beta_end_ = beta;
+      return;
+    }
+  }
+  throw GeometryError(fmt::format(
+      "the external gear with {} teeth is undercut: the rack corner reaches {:.4f} mm beyond the start of the "
+      "involute, of which up to {} modules are modelled; raise the profile shift from {:.4f} by {:.4f} or use more "
+      "teeth",
+      p.teeth, -form_roll_ / units::mm, most, p.profile_shift, -form_roll_ * std::sin(transverse) / p.module));
 }
 
 // The contact point lies where the corner has the normal (sin beta, -cos beta) in rack coordinates, x along the pitch

@@ -15,12 +15,16 @@ namespace annulus::geometry {
 /// section of the gear, has an elliptic one, wider by 1 / cos(helix angle). That is exact, not an approximation.
 /// Internal: a circular arc tangent to involute and root circle, in the transverse section of a helical gear too.
 ///
+/// Where the corner undercuts, its path crosses the involute: the fillet then ends there, in an edge, above the base
+/// circle.
+///
 /// The radius is limited to what the tooth space can hold: half a root land of at least `min_root_land` modules stays,
 /// so that a wanted radius that is too large gives the full root rounding.
 class RootFillet {
  public:
   /// Uses only the radii and thicknesses of `gear`, not its form radius. Throws GeometryError with the reason:
-  /// undercut, root too deep for the generating rack, no room for a fillet in the space.
+  /// undercut of more than two modules of roll length, root too deep for the generating rack, no room for a fillet in
+  /// the space.
   explicit RootFillet(const Gear& gear);
 
   static constexpr double min_root_land = 0.02;  ///< half the root land, modules
@@ -30,6 +34,7 @@ class RootFillet {
   [[nodiscard]] double radius() const { return radius_; }
   /// Roll length r_b tan(alpha) at which the fillet leaves the involute, m.
   [[nodiscard]] double form_roll() const { return form_roll_; }
+  [[nodiscard]] bool undercut() const { return undercut_; }
   /// Polar angle at which the fillet meets the root circle (leading side), rad.
   [[nodiscard]] double root_angle() const;
   /// Largest polar angle of the space: its centre line at pi / z.
@@ -42,6 +47,8 @@ class RootFillet {
 
  private:
   void generate(const Gear& gear);  ///< external
+  /// Ends the fillet where it crosses the involute; `transverse`: pressure angle.
+  void cut_involute(const Gear& gear, double transverse);
   void inscribe(const Gear& gear);  ///< internal
 
   GearKind kind_;
@@ -54,6 +61,7 @@ class RootFillet {
 
   double space_angle_, reference_radius_, base_radius_, root_radius_;
   double radius_ = 0, form_roll_ = 0;
+  bool undercut_ = false;
   // external: rack corner centre beside the rack tooth's centre line and below the pitch line, half width of the corner
   // ellipse (its half height is the radius), largest beta
   double corner_x_ = 0, corner_depth_ = 0, corner_width_ = 0, beta_end_ = 0;

@@ -116,7 +116,8 @@ class RexsFile {
     const auto [end, error] = std::from_chars(first, std::max(first, last), value);
     if (error != std::errc{} || end != last || !std::isfinite(value))
       throw refusal(fmt::format("component {}: {} = '{}' is not a number", c.id, name, shown(text)));
-    const std::string given = node.attribute("unit").value();
+    std::string given = node.attribute("unit").value();
+    if (given == "°") given = "deg";  // as up to version 1.3
     if (given.empty() || given == unit) return value;
     static const std::map<std::pair<std::string, std::string>, double> factors = {
         {{"m", "mm"}, 1e3},       {{"mum", "mm"}, 1e-3},      {{"rad", "deg"}, 180 / 3.14159265358979323846},
@@ -192,6 +193,11 @@ class Filler {
          {std::pair{"tip_diameter_mm", "tip_diameter"}, {"root_diameter_mm", "root_diameter"}})
       if (const auto value = file_.number(c, name, "mm")) put(table + "." + key, std::abs(*value));
     put(table + ".mass_kg", file_.number(c, "mass_of_component", "kg"));
+    if (const auto width = file_.number(c, "face_width", "mm")) {
+      const auto common = scene_.values.find("stage.face_width_mm");
+      if (common == scene_.values.end() || common->second.text != toml_text(Value(*width)))
+        put(table + ".face_width_mm", *width);
+    }
     material(c, table);
     custom(c, table);
   }
@@ -206,6 +212,20 @@ class Filler {
       put("stage.pressure_angle_deg", file_.number(part, "normal_pressure_angle", "deg"));
     if (centre_distance) put("stage.centre_distance_mm", std::abs(*centre_distance));
     material(c, "material");
+  }
+
+  /// Speed and torque of the sun, at the gear or at its shaft.
+  void operating_point(const Component& sun) {
+    std::vector<Component> places = {sun};
+    for (const auto& shaft : file_.related("assembly", "part", sun.id, {"assembly"}))
+      if (shaft.type == "shaft") places.push_back(shaft);
+    for (const auto& place : places) {
+      if (const auto speed = file_.number(place, "rotational_speed", "1 / min"); speed && *speed != 0)
+        put("stage.sun_speed_rpm", std::abs(*speed));
+      for (const auto& load : file_.related("assembly", "assembly", place.id, {"part"}))
+        if (const auto torque = file_.number(load, "torque_around_u_axis", "N m"); torque && *torque != 0)
+          put("stage.sun_torque_Nm", std::abs(*torque));
+    }
   }
 
  private:
@@ -260,8 +280,7 @@ void read_planetary(const RexsFile& file, const std::vector<StageRelation>& stag
   fill.gear(planet, "planet", false);
   fill.gear(ring, "ring", true);
   fill.put_text("ring.name", "ring");
-  if (const auto speed = file.number(sun, "rotational_speed", "1 / min"); speed && *speed != 0)
-    fill.put("stage.sun_speed_rpm", std::abs(*speed));
+  fill.operating_point(sun);
   for (const auto& carrier : file.of_type("planet_carrier")) {
     fill.put("carrier.mass_kg", file.number(carrier, "mass_of_component", "kg"));
     fill.custom(carrier, "carrier");

@@ -104,8 +104,8 @@ bool known_to_rexs(const std::string& key) {
                                       "material.density_kg_per_m3",
                                       "carrier.mass_kg"};
   if (std::find(std::begin(known), std::end(known), key) != std::end(known)) return true;
-  for (const char* name : {".name", ".teeth", ".profile_shift", ".mass_kg", ".tip_diameter_mm", ".root_diameter_mm",
-                           ".youngs_modulus_GPa", ".poisson_ratio", ".density_kg_per_m3"})
+  for (const char* name : {".face_width_mm", ".name", ".teeth", ".profile_shift", ".mass_kg", ".tip_diameter_mm",
+                           ".root_diameter_mm", ".youngs_modulus_GPa", ".poisson_ratio", ".density_kg_per_m3"})
     if (key.ends_with(name)) return true;
   return false;
 }
@@ -160,7 +160,7 @@ Rexs::Component gear(Rexs& rexs, const Scene& scene, const std::string& name, co
   component.attribute("number_of_teeth", "none", sign * gear.teeth());
   component.attribute("normal_module", "mm", scene.stage.module / units::mm);
   component.attribute("helix_angle_reference_diameter", "deg", gear.helix_angle() / units::deg);
-  component.attribute("face_width", "mm", scene.stage.face_width / units::mm);
+  component.attribute("face_width", "mm", gear.parameters().face_width / units::mm);
   component.attribute("reference_circle_diameter", "mm", sign * 2 * gear.reference_radius() / units::mm);
   component.attribute("base_circle_diameter", "mm", sign * 2 * gear.base_radius() / units::mm);
   component.attribute("tip_diameter", "mm", sign * 2 * gear.tip_radius() / units::mm);

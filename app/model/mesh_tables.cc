@@ -68,10 +68,15 @@ std::vector<PositionColumn> position_columns(const MeshModel& model, const fem::
        {std::pair{model.planet_body, &Position::planet_stress}, {model.wheel_body, &Position::wheel_stress}}) {
     const auto has_stress = [m = member](const Position& p) { return (p.*m).has_value(); };
     if (std::none_of(solved.positions.begin(), solved.positions.end(), has_stress)) continue;
-    for (const auto& [name, stress] : stress_columns)
+    for (const auto& [name, stress] : stress_columns) {
       list.push_back({fmt::format("{}_{}_MPa", body, name), [m = member, stress = stress](const Position& p) {
                         return p.*m ? (*(p.*m)).*stress / MPa : not_known;
                       }});
+      list.push_back({fmt::format("{}_{}_error_MPa", body, name), [m = member, stress = stress](const Position& p) {
+                        const double error = p.*m ? (*(p.*m)).error.*stress / MPa : not_known;
+                        return std::isfinite(error) ? error : not_known;
+                      }});
+    }
   }
   for (std::size_t i = 0; i < most_pairs(solved); ++i) {
     const auto there = [i](const Position& p) { return i < p.pair_share.size() && i < p.pair_roll.size(); };

@@ -85,6 +85,17 @@ void warn_of_clearance(std::vector<Warning>& list, const geometry::GearPair& pai
            mesh});
 }
 
+void warn_of_undercut(std::vector<Warning>& list, const geometry::Gear& gear, const std::string& name) {
+  if (!gear.undercut()) return;
+  list.push_back(
+      {"undercut", Severity::warning,
+       fmt::format("the {} is undercut: its involute begins at a diameter of {} mm, above the base circle of "
+                   "{} mm. Its mate does not use the missing part; the undercut tooth is weaker and softer, "
+                   "as computed",
+                   name, to_text(2 * gear.form_radius() / units::mm, 6),
+                   to_text(2 * gear.base_radius() / units::mm, 6))});
+}
+
 void warn_of_backlash(std::vector<Warning>& list, double half_backlash, const geometry::GearPair& pair,
                       const std::string& mesh) {
   const double half = pair.normal_backlash() / 2;

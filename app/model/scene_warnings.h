@@ -18,6 +18,8 @@ namespace annulus::app {
 /// A tip that passes the root of its mate nearer than a tenth of a module. `gears`: names of pinion and wheel.
 void warn_of_clearance(std::vector<Warning>& list, const geometry::GearPair& pair,
                        const std::pair<const char*, const char*>& gears, const std::string& mesh);
+/// A gear of that name whose rack corner cut into the involute.
+void warn_of_undercut(std::vector<Warning>& list, const geometry::Gear& gear, const std::string& name);
 /// A half backlash of the dynamics (m) that is larger than half of what the geometry leaves.
 void warn_of_backlash(std::vector<Warning>& list, double half_backlash, const geometry::GearPair& pair,
                       const std::string& mesh);

@@ -39,31 +39,4 @@ double as_stiff_as_matters(double stiffness, double neighbours, double accuracy)
   return std::min(stiffness, neighbours / (unseen * accuracy));
 }
 
-double torsional_support(const Scene& scene, geometry::StageMember member) {
-  using geometry::StageMember;
-  const auto& s = scene.supports;
-  const auto& given = member == StageMember::sun    ? s.sun_torsional
-                      : member == StageMember::ring ? s.ring_torsional
-                                                    : s.carrier_torsional;
-  return given.value_or(scene.stage.held == member ? rigid : 0);
-}
-
-SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring_mesh) {
-  SupportInput s = scene.supports;
-  const double n = scene.stage.planets, both = sun_mesh + ring_mesh, accuracy = scene.accuracy;
-  s.sun = rigid_if_stiff(s.sun, n * sun_mesh, accuracy);
-  s.ring = rigid_if_stiff(s.ring, n * ring_mesh, accuracy);
-  using geometry::StageMember;
-  const auto torsional = [&](StageMember member, double meshes) {
-    const double given = torsional_support(scene, member);
-    return scene.stage.held == member ? rigid_if_stiff(given, n * meshes, accuracy) : given;
-  };
-  s.sun_torsional = torsional(StageMember::sun, sun_mesh);
-  s.ring_torsional = torsional(StageMember::ring, ring_mesh);
-  s.carrier_torsional = torsional(StageMember::carrier, both);
-  s.carrier = rigid_if_stiff(s.carrier, n * both, accuracy);
-  s.planet = rigid_if_stiff(s.planet, both, accuracy);
-  return s;
-}
-
 }  // namespace annulus::app

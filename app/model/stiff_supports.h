@@ -21,10 +21,4 @@ namespace annulus::app {
 /// A stiffness between two bodies, bounded by the same rule: more of it changes nothing but the pace.
 [[nodiscard]] double as_stiff_as_matters(double stiffness, double neighbours, double accuracy);
 
-/// N/m in u: rigid for the member that is held and none for the others, where the scene does not say.
-[[nodiscard]] double torsional_support(const Scene& scene, geometry::StageMember member);
-/// The supports of a planetary stage by that rule, the torsional ones included. `sun_mesh`, `ring_mesh`: mean stiffness
-/// of one mesh, N/m.
-[[nodiscard]] SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring_mesh);
-
 }  // namespace annulus::app

@@ -2,6 +2,10 @@
 
 namespace annulus::app {
 
+double face_width_of(const Scene& scene, const GearInput& gear) {
+  return gear.face_width.value_or(scene.stage.face_width);
+}
+
 geometry::GearParameters gear_parameters(const Scene& scene, const GearInput& input, geometry::GearKind kind,
                                          int hand) {
   return {.kind = kind,
@@ -9,7 +13,7 @@ geometry::GearParameters gear_parameters(const Scene& scene, const GearInput& in
           .module = scene.stage.module,
           .pressure_angle = scene.stage.pressure_angle,
           .profile_shift = input.profile_shift,
-          .face_width = scene.stage.face_width,
+          .face_width = face_width_of(scene, input),
           .tip_diameter = input.tip_diameter,
           .root_diameter = input.root_diameter,
           .root_fillet_factor = input.root_fillet_factor,
@@ -18,7 +22,8 @@ geometry::GearParameters gear_parameters(const Scene& scene, const GearInput& in
           .profile_crowning = input.profile_crowning,
           .lead_crowning = input.lead_crowning,
           .lead_slope = input.lead_slope,
-          .helix_angle = hand * scene.stage.helix_angle};
+          .helix_angle = hand * scene.stage.helix_angle,
+          .axial_offset = input.axial_offset};
 }
 
 geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::GearKind kind, int hand) {

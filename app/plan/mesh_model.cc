@@ -122,6 +122,8 @@ std::string MeshModel::id() const {
     id.add("face_width", problem->face_width).add("planet_bore", problem->planet_bore_radius);
     id.add("wheel_support", problem->wheel_support_radius).add("phases", problem->phases);
     id.add("misalignment", problem->misalignment);
+    for (const auto* overhang : {&problem->planet_overhang, &problem->wheel_overhang})
+      id.add("below", overhang->below).add("above", overhang->above);
     for (const double load : problem->loads) id.add("load", load);
     if (problem->pair.internal()) add_structure(id, problem->structure);
     id.add("accuracy", settings.accuracy).add("degree", settings.degree).add("level", settings.level.value_or(0));
@@ -133,7 +135,12 @@ std::string MeshModel::label() const { return ring.empty() ? title : fmt::format
 
 fem::FaceFeatures face_features(const Scene& scene, const GearInput& planet, const std::string& planet_name,
                                 const GearInput& wheel, const std::string& wheel_name, double misalignment) {
-  return {scene.stage.helix_angle, planet_name, wheel_name, lead_modified(planet), lead_modified(wheel), misalignment};
+  // Less changes the stiffness by less than the plane section's own error.
+  constexpr double seen = 0.05;
+  const double apart = std::abs(planet.axial_offset - wheel.axial_offset);
+  const bool beside = apart > seen * std::min(face_width_of(scene, planet), face_width_of(scene, wheel));
+  return {scene.stage.helix_angle, planet_name,  wheel_name, lead_modified(planet),
+          lead_modified(wheel),    misalignment, beside};
 }
 
 std::string solid_reason(const Scene& scene, const GearMesh& mesh) {
@@ -152,13 +159,16 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
     set_given(model, mesh.input.stiffness);
     return model;
   }
+  const auto face = mesh.pair.common_face();
   model.problem = {.pair = mesh.pair,
                    .materials = {material_of(scene, mesh.planet), material_of(scene, mesh.wheel)},
-                   .face_width = scene.stage.face_width,
+                   .face_width = face.width,
                    .planet_bore_radius = mesh.planet.bore_diameter.value_or(0) / 2,
                    .wheel_support_radius = mesh.wheel_support_diameter.value_or(0) / 2,
                    .structure = mesh.structure,
                    .misalignment = mesh.misalignment,
+                   .planet_overhang = face.pinion,
+                   .wheel_overhang = face.wheel,
                    .name = mesh.mesh};
   const fem::MeshWish wish{.model = scene.fidelity,
                            .accuracy = scene.accuracy,

@@ -54,7 +54,9 @@ Table stage_table() {
            "transmission errors of a planetary stage are those of the transverse section.")
       .fallback(0.0, "spur gears")
       .from(-45, 45);
-  stage.key("face_width_mm", &StageInput::face_width, "Common face width.").required().above(0, 5000);
+  stage.key("face_width_mm", &StageInput::face_width, "Face width of all gears that have none of their own.")
+      .required()
+      .above(0, 5000);
   return stage.done();
 }
 

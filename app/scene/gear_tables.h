@@ -79,6 +79,19 @@ void declare_own_material(Declarations<Section>& t) {
   t.key("density_kg_per_m3", &Section::density, "Density of this gear.").from(100, 30000).absent(common);
 }
 
+/// face_width_mm and axial_offset_mm of a gear.
+template <class Section>
+void declare_own_face(Declarations<Section>& t) {
+  t.key("face_width_mm", &Section::face_width,
+        "Face width of this gear. Flanks touch where both gears of a mesh have teeth.")
+      .above(0, 5000)
+      .absent("that of [stage]");
+  t.key("axial_offset_mm", &Section::axial_offset,
+        "Middle of this gear's face along the axis (z) against that of the stage.")
+      .from(-5000, 5000)
+      .fallback(0.0, "the middles of all faces are in one plane");
+}
+
 /// mass_kg
 template <class Section>
 Declared declare_mass(Declarations<Section>& t, const char* meaning = "Mass.") {

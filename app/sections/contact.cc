@@ -305,8 +305,9 @@ Blocks stresses(const NamedMeshes& meshes) {
 }  // namespace
 
 Section contact_section(const NamedMeshes& meshes) {
-  return {"contact", "Face width, pressure, stress",
-          face_width(meshes) + pressures(meshes) + stresses(meshes) + beside_iso_6336(meshes)};
+  return {
+      "contact", "Face width, pressure, stress",
+      face_width(meshes) + pressures(meshes) + stresses(meshes) + stresses_by_load(meshes) + beside_iso_6336(meshes)};
 }
 
 }  // namespace annulus::app

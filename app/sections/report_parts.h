@@ -138,6 +138,8 @@ struct NamedOutcome {
 [[nodiscard]] double mean_at_load(const StiffnessTable& table, std::size_t load, double StiffnessEntry::*stiffness);
 // contact.cc
 [[nodiscard]] Section contact_section(const NamedMeshes& meshes);  ///< face width, pressure, stress
+/// Largest root and rim stresses at every load of the tables, with their errors; empty without computed ones.
+[[nodiscard]] Blocks stresses_by_load(const NamedMeshes& meshes);
 /// Local stresses and pressures beside the nominal ones of ISO 6336; empty without computed ones.
 [[nodiscard]] Blocks beside_iso_6336(const NamedMeshes& meshes);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "app/sections/report_parts.h"
 #include "core/errors.h"
@@ -48,8 +49,8 @@ std::vector<Text> root_row(const std::string& mesh_name, const MeshedGear& g) {
   try {
     const auto root = geometry::root_section(g.pair(), g.gear());
     const double stress = geometry::nominal_root_stress(g.gear(), root, g.tangential_force());
-    const double compression = root.stress_correction * g.normal_force() * std::sin(root.load_angle) /
-                               (g.gear().parameters().face_width * root.chord);
+    const double compression =
+        root.stress_correction * g.normal_force() * std::sin(root.load_angle) / (root.face_width * root.chord);
     for (const auto& cell :
          {in_MPa(stress), in_MPa(stress - compression), to_text(root.form_factor, 4),
           to_text(root.stress_correction, 4), to_text(geometry::rim_thickness_factor(g.gear(), g.rim()), 3)})
@@ -72,7 +73,46 @@ double largest_pressure(const MeshResult& mesh) {
   return largest;
 }
 
+/// The largest of a stress over the positions of a mesh at one load, with the error of that position; empty without.
+std::string largest_at_load(const Csv& positions, double load, const std::string& stress) {
+  const auto name = stress + "_MPa";
+  if (std::find(positions.columns.begin(), positions.columns.end(), name) == positions.columns.end()) return "";
+  const auto value = positions.column(name), error = positions.column(stress + "_error_MPa"),
+             at = positions.column("load_N");
+  const std::vector<double>* best = nullptr;
+  for (const auto& row : positions.rows)
+    if (row[at] == load && std::isfinite(row[value]) && (!best || std::abs(row[value]) > std::abs((*best)[value])))
+      best = &row;
+  return best && (*best)[value] != 0 ? measured((*best)[value], (*best)[error]) : "";
+}
+
 }  // namespace
+
+Blocks stresses_by_load(const NamedMeshes& meshes) {
+  Blocks blocks;
+  for (const auto& [name, mesh] : meshes) {
+    if (!mesh->model.computed() || mesh->positions.rows.empty() || mesh->table.loads().size() < 2) continue;
+    const auto &planet = mesh->model.planet_body, &wheel = mesh->model.wheel_body;
+    PageTable table{.head = {"load, kN"}};
+    std::vector<std::string> columns;
+    for (const auto& [body, kind, words] : {std::tuple{planet, "root_tension", "root, tension"},
+                                            {wheel, "root_tension", "root, tension"},
+                                            {wheel, "rim_von_mises", "rim, von Mises"}}) {
+      const auto stress = fmt::format("{}_{}", body, kind);
+      if (largest_at_load(mesh->positions, mesh->table.loads()[mesh->nominal], stress).empty()) continue;
+      columns.push_back(stress);
+      table.head.emplace_back(fmt::format("{}: {}, MPa", body, words));
+    }
+    if (columns.empty()) continue;
+    for (const double load : mesh->table.loads()) {
+      auto& row = table.rows.emplace_back(std::vector<Text>{to_text(load / 1e3, 4)});
+      for (const auto& stress : columns) row.emplace_back(largest_at_load(mesh->positions, load, stress));
+    }
+    blocks += heading("Stress over the load: " + name) + table;
+  }
+  if (!blocks.empty()) blocks += paragraph("Largest over the mesh cycles, with the error by discretisation.");
+  return blocks;
+}
 
 Blocks beside_iso_6336(const NamedMeshes& meshes) {
   PageTable roots{.head = {"root", "largest local tension, MPa", phrase("σ{}, MPa", subscript("F0")),

@@ -17,7 +17,7 @@ std::string lte_key(const std::string& mesh) { return mesh + "_lte_peak_to_peak_
 
 /// All settings of a ring in the plane share plane strain, also the one they are compared with.
 double common_error(const MeshResult& mesh) {
-  return fem::is_solid(mesh.model.settings.fidelity) ? 0 : fem::plane_strain_error(*mesh.model.problem);
+  return fem::is_solid(mesh.model.settings.fidelity) ? 0 : fem::plane_error(*mesh.model.problem);
 }
 
 Figure absolute(double value, double relative) { return {value, std::abs(value) * relative}; }

@@ -8,8 +8,8 @@
 
 namespace annulus::fem {
 
-/// How one gear of a loaded mesh becomes a body: what is meshed and what holds it. The toothed part lies between z = 0
-/// and the face width.
+/// How one gear of a loaded mesh becomes a body: what is meshed and what holds it. The common face lies between z = 0
+/// and its width; the teeth may reach beyond it.
 class BodyPlan {
  public:
   /// `wheel`: the pair's wheel with its structure, else the planet. The profile is referred to. Throws InputError when
@@ -27,17 +27,22 @@ class BodyPlan {
   }
 
   [[nodiscard]] const geometry::ToothProfile& profile() const { return profile_; }
+  /// Borders along the axis of what carries on the outside: `pieces` of the common face, and the overhangs, m.
+  [[nodiscard]] std::vector<double> support_edges(int pieces) const;
   [[nodiscard]] double support_radius() const { return rim_.support_radius; }
   [[nodiscard]] const SectorModelOptions& model() const { return model_; }
   /// The section held at its support circle: near fields are compared on it.
   [[nodiscard]] SectorModelOptions near_field_model() const;
   [[nodiscard]] bool floating() const { return model_.held == HeldBoundary::none; }
+  /// Of the straight outside of a helical ring against the section at z = 0, rad; 0: none.
+  [[nodiscard]] double turn() const { return profile_.twist() * model_.straight_z.value_or(0); }
 
  private:
   [[nodiscard]] geometry::Mesh sector(const BodyResolution& resolution, const SolvedFace& face) const;
 
   const geometry::ToothProfile& profile_;
   SolvedFace face_;
+  geometry::Overhang overhang_;
   bool solid_;
   RingBody ring_;
   geometry::Rim rim_;

@@ -39,7 +39,8 @@ StressLine observe(const StressSurface& surface, const SectorModel& model, int m
   return line;
 }
 
-/// Unit normal of the flank (side 1: leading, -1: trailing) out of the material; of a helical gear in its section at z.
+}  // namespace
+
 Eigen::Vector3d flank_normal(const geometry::ToothProfile& profile, double roll, double side, double z) {
   const Eigen::Vector2d normal = profile.flank_normal(roll), point = profile.flank_point(roll);
   // The normal stands on the tangent (twist e_z x p) + e_z of the helix through the point.
@@ -47,8 +48,6 @@ Eigen::Vector3d flank_normal(const geometry::ToothProfile& profile, double roll,
   const Eigen::Vector3d all(normal.x(), side * normal.y(), -profile.twist() * moment);
   return Eigen::AngleAxisd(profile.twist() * z, Eigen::Vector3d::UnitZ()) * all.normalized();
 }
-
-}  // namespace
 
 Eigen::RowVector3d GearBody::rigid_motion(int port, int sector) const {
   const Eigen::AngleAxisd turn(sector * pitch_angle, Eigen::Vector3d::UnitZ());

@@ -55,6 +55,8 @@ struct GearBody {
 
 /// Force and moment of a load, in the sector's frame.
 [[nodiscard]] Wrench resultant(const NodalLoad& load, const std::vector<Eigen::Vector3d>& nodes);
+/// Unit normal of the flank (side 1: leading, -1: trailing) out of the material; of a helical gear in its section at z.
+[[nodiscard]] Eigen::Vector3d flank_normal(const geometry::ToothProfile& profile, double roll, double side, double z);
 /// Unit forces into the material along the flank normal at the nodes of the flank, [as model.flank.nodes].
 [[nodiscard]] std::vector<Port> flank_forces(const SectorModel& model, const geometry::ToothProfile& profile,
                                              geometry::Boundary flank);

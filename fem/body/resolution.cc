@@ -174,6 +174,11 @@ BodyResolution solid_resolution(int level, int degree, double overlap_ratio) {
   return r;
 }
 
+int support_slices(const LoadedMeshProblem& problem, int face_cells) {
+  constexpr int most_of_helical = 4;
+  return std::max(1, problem.pair.pinion().helix_angle() != 0 ? std::min(face_cells, most_of_helical) : face_cells);
+}
+
 int slices_per_cell(const LoadedMeshProblem& problem, int degree) {
   const auto uneven = [](const geometry::Gear& gear) {
     const auto& p = gear.parameters();

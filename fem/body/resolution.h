@@ -44,6 +44,9 @@ struct ContactCells {
 [[nodiscard]] BodyResolution solid_resolution(int level, int degree, double overlap_ratio = 0);
 /// In how many slices, along the face, of constant pressure a cell of a solid is divided.
 [[nodiscard]] int slices_per_cell(const LoadedMeshProblem& problem, int degree);
+/// Slices of a single support on the outside of a solid ring, each unilateral on its own: one per layer of elements. A
+/// helical ring, which cannot tilt, spreads its load too evenly along the axis for more than four to matter.
+[[nodiscard]] int support_slices(const LoadedMeshProblem& problem, int face_cells);
 /// Pressure elements of a contact to either side of its centre; in a solid, in every slice. Linear helical teeth, with
 /// their many slices, leave so much that fewer of them do.
 [[nodiscard]] int pressure_elements(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level);

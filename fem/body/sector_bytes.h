@@ -43,7 +43,8 @@ inline void add_sector_inputs(ByteWriter& inputs, const geometry::Mesh& mesh, co
   inputs(support_radius, material.youngs_modulus, material.poisson_ratio);
   if (options.outputs.count(SectorOutput::mass) > 0) inputs(material.density);
   inputs(options.degree, options.refinements, options.held, options.flank, options.symmetric_end,
-         options.outside_radius);
+         options.outside_radius, options.straight_z.has_value(),
+         options.axial_support.value_or(geometry::Boundary::none));
   for (const auto output : options.outputs) inputs(output);
 }
 

@@ -74,6 +74,7 @@ std::string solid_reason(const RingStructure& structure, const FaceFeatures& fea
   add(features.wheel_lead_modified, fmt::format(lead, features.wheel_name));
   add(features.planet_lead_modified, fmt::format(lead, features.planet_name));
   add(features.misalignment != 0, "the flanks are misaligned, so the load varies along the face width");
+  add(features.beside, "the middles of the faces are apart, so the load varies along the face width");
   return reasons;
 }
 

@@ -34,7 +34,7 @@ Eigen::SparseMatrix<double> load_columns(const SectorModel& model, const SectorL
 
 }  // namespace
 
-bool CondensedSector::symmetric() const {
+bool CondensedSector::axially_held() const {
   return std::any_of(interface_dofs.begin(), interface_dofs.end(), [this](int free) { return free < dimension; });
 }
 

@@ -35,8 +35,8 @@ struct CondensedSector {
   Eigen::MatrixXd compliance;           ///< loads x (ports and acting), with both interfaces held
   int ports = 0;
 
-  /// Whether some points stay in a plane of symmetry: the ring can then neither tilt nor move along its axis.
-  [[nodiscard]] bool symmetric() const;
+  /// Whether some points stay in a plane across the axis: the ring can then neither tilt nor move along its axis.
+  [[nodiscard]] bool axially_held() const;
   /// The columns of displacements of a interface, from `first` on, turned from the frame of its own sector into that of
   /// the sector before: times the rotation by the pitch.
   void turn_columns(Eigen::MatrixXd& matrix, Eigen::Index first) const;

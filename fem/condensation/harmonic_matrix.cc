@@ -13,7 +13,7 @@ namespace {
 /// Rigid motions of the whole ring that have circumferential harmonic `h`, seen at the low interface in the sector's
 /// frame: axial translation and rotation about the axis for h = 0; translation and tilt, as x + i y, for h = 1.
 std::vector<Eigen::VectorXcd> harmonic_rigid_motions(const CondensedSector& sector, int harmonic) {
-  const bool out_of_plane = sector.dimension == 3 && !sector.symmetric();
+  const bool out_of_plane = sector.dimension == 3 && !sector.axially_held();
   std::vector<Eigen::VectorXcd> motions;
   const auto add = [&](const auto& displacement) {
     Eigen::VectorXcd motion(sector.interface_stiffness.rows() / 2);

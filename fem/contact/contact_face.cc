@@ -7,7 +7,7 @@
 
 namespace annulus::fem {
 
-ContactFace::ContactFace(const FlankContact& flanks, std::vector<double> slice_edges, double misalignment)
+ContactFace::ContactFace(const FlankContact& flanks, std::vector<double> slice_edges, const FaceGaps& gaps)
     : flanks_(flanks),
       slice_edges_(std::move(slice_edges)),
       normal_factor_(std::cos(flanks.pair().pinion().base_helix_angle())),
@@ -15,8 +15,8 @@ ContactFace::ContactFace(const FlankContact& flanks, std::vector<double> slice_e
   const double width = this->width();
   for (std::size_t s = 0; s + 1 < slice_edges_.size(); ++s) {
     const auto gap = [&](double z) {
-      return flanks_.pinion().lead_modification(z) + flanks_.wheel().lead_modification(z) +
-             misalignment * (z / width - 0.5);
+      return flanks_.pinion().lead_modification(z + gaps.planet_below) +
+             flanks_.wheel().lead_modification(z + gaps.wheel_below) + gaps.misalignment * (z / width - 0.5);
     };
     // Without load the flanks touch where the gap is smallest, not where its mean is: a convex curve has one such
     // place.

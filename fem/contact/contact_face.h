@@ -6,11 +6,18 @@
 
 namespace annulus::fem {
 
+/// What varies along the face beside the flanks' own profile, m.
+struct FaceGaps {
+  double misalignment = 0;  ///< as in LoadedMeshProblem
+  /// From the low end of each gear's teeth, at which its lead modifications begin, to that of the common face.
+  double planet_below = 0, wheel_below = 0;
+};
+
 /// The face width of a gear mesh in slices, with the gaps between unloaded flanks that vary along it.
 class ContactFace {
  public:
-  /// `flanks` are referred to; `slice_edges` (m) ascend; `misalignment` (m) as in LoadedMeshProblem.
-  ContactFace(const FlankContact& flanks, std::vector<double> slice_edges, double misalignment);
+  /// `flanks` are referred to; `slice_edges` (m) ascend.
+  ContactFace(const FlankContact& flanks, std::vector<double> slice_edges, const FaceGaps& gaps);
 
   [[nodiscard]] const FlankContact& flanks() const { return flanks_; }
   [[nodiscard]] const std::vector<double>& slice_edges() const { return slice_edges_; }      ///< m

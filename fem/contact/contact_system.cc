@@ -15,7 +15,7 @@ namespace annulus::fem {
 ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
                              const SupportRow* supports, const MeshMaterials& materials,
                              std::vector<double> slice_edges, const ContactOptions& options)
-    : face_(flanks, std::move(slice_edges), options.misalignment),
+    : face_(flanks, std::move(slice_edges), options.gaps),
       bodies_{face_, planet, wheel, supports},
       range_(options.pairs ? *options.pairs : possible_contacts(flanks)),
       materials_(materials),

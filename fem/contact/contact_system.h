@@ -22,7 +22,7 @@
 namespace annulus::fem {
 
 struct ContactOptions : PressureElementOptions {
-  double misalignment = 0;  ///< m, as in LoadedMeshProblem
+  FaceGaps gaps{};
   /// Bodies and slices are the lower half of a symmetric face (see SolvedFace); loads and results are those of the
   /// whole.
   bool half_face = false;

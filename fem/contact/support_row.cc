@@ -8,8 +8,8 @@
 
 namespace annulus::fem {
 
-SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, bool half_face)
-    : sites_(std::move(sites)), slice_edges_(std::move(slice_edges)), half_face_(half_face) {
+SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, bool half_face, double turn)
+    : sites_(std::move(sites)), slice_edges_(std::move(slice_edges)), half_face_(half_face), turn_(turn) {
   const double pitch = 2 * M_PI / teeth;
   const int slices = static_cast<int>(slice_edges_.size()) - 1;
   constexpr double same = 1e-10;  // rad: round-off of angles of a few turns
@@ -36,7 +36,7 @@ SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slic
           ArcLoad arc;
           arc.centre = s.angle - sector * pitch;
           arc.half_arc = s.half_arc;
-          arc.direction = arc.centre + M_PI - std::atan2(d.counter_clockwise, d.inward);
+          arc.direction = arc.centre + turn + M_PI - std::atan2(d.counter_clockwise, d.inward);
           arc.parabolic = s.parabolic;
           arc.z_low = slice_edges_[slice];
           arc.z_high = slice_edges_[slice + 1];
@@ -77,7 +77,7 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
       ring_(ring),
       on_sector_(ring.teeth),
       interfaces_(std::make_unique<Interface[]>(ring.teeth)) {
-  const bool solid = ring.axial_stations() > 1, tilts = solid && !plan_.half_face();
+  const bool solid = ring.axial_stations() > 1, tilts = solid && !plan_.half_face() && !plan_.held_axially();
   const auto& edges = plan_.slice_edges();
   const double width = edges.back() - edges.front();
   require(solid || edges.size() == 2, "a plane body has one slice");

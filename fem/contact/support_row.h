@@ -17,8 +17,9 @@ namespace annulus::fem {
 class SupportPlan {
  public:
   /// `slice_edges`: z of the slices of the face width, each with its own forces; in the plane one slice. `half_face`:
-  /// they are the lower half of a symmetric face (see SolvedFace).
-  SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, bool half_face = false);
+  /// they are the lower half of a symmetric face (see SolvedFace). `turn`: rad, of helical teeth in the middle of the
+  /// face against z = 0 (BodyPlan::turn); sites are at angles from there.
+  SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, bool half_face = false, double turn = 0);
 
   struct Force {
     int site = 0, direction = 0, slice = 0;
@@ -27,6 +28,8 @@ class SupportPlan {
   [[nodiscard]] const SupportSites& sites() const { return sites_; }
   [[nodiscard]] const std::vector<double>& slice_edges() const { return slice_edges_; }
   [[nodiscard]] bool half_face() const { return half_face_; }
+  /// Neither moves along the axis nor tilts: an end face of a helical ring bears its axial force.
+  [[nodiscard]] bool held_axially() const { return turn_ != 0; }
   /// [site][direction][slice]
   [[nodiscard]] const std::vector<Force>& forces() const { return forces_; }
   [[nodiscard]] const std::vector<ArcLoad>& arcs() const { return arcs_; }
@@ -40,6 +43,7 @@ class SupportPlan {
   SupportSites sites_;
   std::vector<double> slice_edges_;
   bool half_face_;
+  double turn_;
   std::vector<Force> forces_;
   std::vector<ArcLoad> arcs_;
 };
@@ -52,8 +56,8 @@ class SupportRow {
 
   [[nodiscard]] int size() const { return static_cast<int>(plan_.forces().size()); }  ///< number of forces
   [[nodiscard]] const SupportPlan& plan() const { return plan_; }
-  /// Rigid motions of the ring: x, y, rotation about z; of a whole solid one also about x and y. Axial motion is not
-  /// resisted, and not loaded.
+  /// Rigid motions of the ring: x, y, rotation about z; of a whole solid one also about x and y, unless the plan holds
+  /// it axially. Else axial motion is not resisted, and not loaded.
   [[nodiscard]] int rigid_motions() const { return static_cast<int>(resultants_.cols()); }
   /// forces x rigid motions: resultants of unit forces (N, N m)
   [[nodiscard]] const Eigen::MatrixXd& resultants() const { return resultants_; }

@@ -63,24 +63,35 @@ TraceGrid make_trace(const std::vector<int>& nodes, const std::vector<Eigen::Vec
   return trace;
 }
 
-/// Polar angle in the section of the body at the point's z, which a helical gear turns by `twist` z.
-double polar_angle(const Eigen::Vector3d& p, double twist) {
-  return std::remainder(std::atan2(p.y(), p.x()) - twist * p.z(), 2 * M_PI);
+/// Polar angle of a point in the section of the body, rad.
+using PolarAngle = std::function<double(const Eigen::Vector3d&)>;
+
+/// In a section that a helical gear turns by `twist` z.
+PolarAngle twisted_angle(double twist) {
+  return
+      [twist](const Eigen::Vector3d& p) { return std::remainder(std::atan2(p.y(), p.x()) - twist * p.z(), 2 * M_PI); };
+}
+
+/// On the outside, which may keep the section at one z.
+PolarAngle outside_angle(double twist, const std::optional<double>& straight_z) {
+  if (!straight_z) return twisted_angle(twist);
+  return [turn = twist * *straight_z](const Eigen::Vector3d& p) {
+    return std::remainder(std::atan2(p.y(), p.x()) - turn, 2 * M_PI);
+  };
 }
 
 /// Those of the surface's nodes that lie in a range of polar angles.
 StressSurface make_stress_surface(const std::vector<SurfaceStress>& surface, const std::vector<Eigen::Vector3d>& points,
-                                  int degree, double twist, double low, double high) {
+                                  int degree, const PolarAngle& polar_angle, double low, double high) {
   std::vector<int> nodes;
   std::map<int, const SurfaceStress*> stress_of;
   for (const auto& stress : surface) {
-    const double angle = polar_angle(points[stress.node], twist);
+    const double angle = polar_angle(points[stress.node]);
     if (angle < low || angle > high) continue;
     nodes.push_back(stress.node);
     stress_of[stress.node] = &stress;
   }
-  StressSurface result{
-      make_trace(nodes, points, degree, [twist](const Eigen::Vector3d& p) { return polar_angle(p, twist); }), {}};
+  StressSurface result{make_trace(nodes, points, degree, polar_angle), {}};
   for (const int node : result.trace.nodes) result.stress.push_back(*stress_of.at(node));
   return result;
 }
@@ -122,16 +133,16 @@ std::vector<bool> on_boundaries(const ElasticProblem<dim>& problem, const std::v
   return result;
 }
 
-/// Numbers the DOFs that are not held (of a plane of symmetry the axial ones are) and takes their stiffness.
+/// Numbers the DOFs that are not held (of ends that slide in their plane the axial ones are) and takes their stiffness.
 template <int dim>
 void add_free_stiffness(const ElasticProblem<dim>& problem, const std::vector<bool>& held,
-                        const std::vector<bool>& in_symmetry, SectorModel& model) {
+                        const std::vector<bool>& sliding, SectorModel& model) {
   std::vector<int> row_of_dof(problem.dofs(), -1);
   model.dof.assign(model.nodes.size() * dim, -1);
   int rows = 0;
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
     for (int c = 0; c < dim; ++c)
-      if (!held[n] && !(in_symmetry[n] && c == 2)) {
+      if (!held[n] && !(sliding[n] && c == 2)) {
         row_of_dof[problem.node_dofs()[n][c]] = rows;
         model.dof[n * dim + c] = rows++;
       }
@@ -175,20 +186,21 @@ template <int dim>
 void add_stress_surfaces(const ElasticProblem<dim>& problem, double twist, const SectorModelOptions& options,
                          const std::vector<bool>& in_symmetry, SectorModel& model) {
   using geometry::Boundary;
-  const auto surface = [&](const std::vector<Boundary>& boundaries, double low, double high) {
+  const auto surface = [&](const std::vector<Boundary>& boundaries, const PolarAngle& angle, double low, double high) {
     auto stress = problem.surface_stress(boundaries);
     // The other half has the opposite shear there: their mean is none.
     for (auto& s : stress)
       if (in_symmetry[s.node]) s.shear.clear();
-    return make_stress_surface(stress, model.nodes, options.degree, twist, low, high);
+    return make_stress_surface(stress, model.nodes, options.degree, angle, low, high);
   };
   const std::vector<Boundary> root = {Boundary::trailing_fillet, Boundary::leading_fillet, Boundary::root};
-  model.root_low = surface(root, -M_PI, 0);
-  model.root_high = surface(root, 0, M_PI);
+  model.root_low = surface(root, twisted_angle(twist), -M_PI, 0);
+  model.root_high = surface(root, twisted_angle(twist), 0, M_PI);
   // A hoop or a flange goes beyond the ring's own outside.
   const bool band = std::isfinite(options.outside_radius);
   if (options.held != HeldBoundary::support)
-    model.rim = surface({band ? Boundary::outside : Boundary::support}, -M_PI, M_PI);
+    model.rim =
+        surface({band ? Boundary::outside : Boundary::support}, outside_angle(twist, options.straight_z), -M_PI, M_PI);
 }
 
 template <int dim>
@@ -205,9 +217,10 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   model.pitch_angle = profile.gear().pitch_angle();
   model.nodes = nodes_of(problem);
   const auto held = on_boundaries(problem, boundaries_of(options.held));
-  const auto in_symmetry =
-      options.symmetric_end ? on_boundaries(problem, {geometry::Boundary::end_high}) : std::vector(held.size(), false);
-  add_free_stiffness(problem, held, in_symmetry, model);
+  std::vector<geometry::Boundary> symmetric, sliding;
+  if (options.symmetric_end) symmetric = sliding = {geometry::Boundary::end_high};
+  if (options.axial_support) sliding.push_back(*options.axial_support);
+  add_free_stiffness(problem, held, on_boundaries(problem, sliding), model);
   add_cyclic_interfaces(problem, held, support_radius, model);
 
   model.flank = make_trace(problem.boundary_nodes(options.flank), model.nodes, options.degree,
@@ -216,10 +229,11 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   const auto asked = [&](SectorOutput output) { return options.outputs.count(output) > 0; };
   if (asked(SectorOutput::outside))
     model.outside = make_trace(problem.boundary_nodes(geometry::Boundary::support), model.nodes, options.degree,
-                               [twist](const Eigen::Vector3d& p) { return polar_angle(p, twist); });
+                               outside_angle(twist, options.straight_z));
   if (asked(SectorOutput::mass)) model.nodal_mass = problem.nodal_mass();
   if (asked(SectorOutput::field)) model.field = problem.vertex_field();
-  if (asked(SectorOutput::stress)) add_stress_surfaces(problem, twist, options, in_symmetry, model);
+  if (asked(SectorOutput::stress))
+    add_stress_surfaces(problem, twist, options, on_boundaries(problem, symmetric), model);
   return model;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -73,9 +74,14 @@ struct SectorModelOptions {
   HeldBoundary held = HeldBoundary::support;
   /// The upper end of a solid is a plane of symmetry: its nodes stay in it. The sector is then half of a body.
   bool symmetric_end = false;
+  /// end_low or end_high of a solid: its nodes stay in its plane, on which it slides. Absent: none.
+  std::optional<geometry::Boundary> axial_support{};
   geometry::Boundary flank = geometry::Boundary::leading_flank;
   /// Outside radius of a ring whose hoop or flange goes beyond it, m (see geometry::ExtrudeOptions).
   double outside_radius = std::numeric_limits<double>::quiet_NaN();
+  /// z (m) whose section the free outside of a helical ring keeps (geometry::ExtrudeOptions::straight): its polar
+  /// angles count from there. Absent: it is twisted like the teeth.
+  std::optional<double> straight_z{};
   std::set<SectorOutput> outputs{};
 };
 

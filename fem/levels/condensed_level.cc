@@ -54,7 +54,8 @@ ContactForces forces_at(const ContactSystem& system, const LoadedPosition& posit
 std::vector<StressCurve> worst_curves(const LoadedMeshProblem& problem, const MeshBodies& bodies,
                                       const ContactSystem& system, const std::vector<LoadedPosition>& positions) {
   std::vector<StressCurve> result;
-  const auto add = [&](const char* name, double BodyStress::*value, std::optional<BodyStress> LoadedPosition::*body,
+  const auto add = [&](const char* name, double BodyStress::*value,
+                       std::optional<RecoveredStress> LoadedPosition::*body,
                        StressRecovery::Line StressRecovery::Result::*line) {
     const auto stress = [&](const LoadedPosition& p) { return (*(p.*body)).*value; };
     const std::size_t worst = worst_position(positions, problem.loads.size(), stress);
@@ -121,17 +122,15 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   const Stopwatch watch;
   ContactOptions options;
   options.elements = pressure_elements(problem, settings, level);
-  options.misalignment = problem.misalignment;
+  options.gaps = {problem.misalignment, problem.planet_overhang.below, problem.wheel_overhang.below};
   options.half_face = bodies.face.half;
   const ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.materials,
                              bodies.slice_edges, options);
   const auto solve = [&](int cycle, int phase, int load, ContactSystem::PairsCache& cache,
                          ContactSystem::WarmStart& warm) {
     ContactForces forces;
-    const bool stresses = load == static_cast<int>(problem.loads.size() / 2);
-    LoadedPosition position = system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load],
-                                           cache, warm, stresses ? &forces : nullptr);
-    if (!stresses) return position;
+    LoadedPosition position =
+        system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load], cache, warm, &forces);
     position.planet_stress = bodies.planet_stress->stresses(forces.planet, {}).largest;
     position.wheel_stress = bodies.wheel_stress->stresses(forces.wheel, forces.supports).largest;
     return position;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "fem/body/resolution.h"
 
@@ -27,15 +28,16 @@ double left_over(int degree, double difference, std::optional<double> before) {
   return ratio < 0.5 ? std::max(least, ratio / (1 - ratio)) : most;
 }
 
-/// Relative, of the stiffness; zero at phases that the coarser level left out, at loads that it left out the larger one
-/// of the loads to either side.
-std::vector<double> differences(const std::vector<LoadedPosition>& coarser,
-                                const std::vector<LoadedPosition>& positions, std::size_t loads) {
+/// Relative differences between two levels as `difference` (of the index of a position) gives them; zero at phases that
+/// the coarser level left out, at loads that it left out the larger one of the loads to either side.
+template <class Difference>
+std::vector<double> differences(const std::vector<LoadedPosition>& coarser, std::size_t loads,
+                                const Difference& difference) {
   const auto solved = [&](std::size_t i) { return coarser[i].entry.stiffness_secant != 0; };
-  std::vector<double> result(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    if (solved(i)) result[i] = std::abs(coarser[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
-  for (std::size_t first = 0; first < positions.size(); first += loads) {
+  std::vector<double> result(coarser.size());
+  for (std::size_t i = 0; i < coarser.size(); ++i)
+    if (solved(i)) result[i] = difference(i);
+  for (std::size_t first = 0; first < coarser.size(); first += loads) {
     if (!solved(first)) continue;
     for (std::size_t low = 0, high = 1; high < loads; ++high) {
       if (!solved(first + high)) continue;
@@ -47,22 +49,79 @@ std::vector<double> differences(const std::vector<LoadedPosition>& coarser,
   return result;
 }
 
-/// What is left of the largest stresses of one body. Positions differ in where the fillet is cut by cells, so that the
-/// largest difference of all positions whose stress is near the largest counts.
-BodyStress stress_errors(const std::vector<LoadedPosition>& coarser, const std::vector<LoadedPosition>& positions,
-                         std::optional<BodyStress> LoadedPosition::*body, double left, double notch) {
-  constexpr double near = 0.9;
-  BodyStress result;
-  for (const auto value : stress_values) {
-    const auto size = [&](const LoadedPosition& p) { return p.*body ? std::abs((*(p.*body)).*value) : 0.0; };
-    double largest = 0, difference = std::numeric_limits<double>::quiet_NaN();
-    for (const auto& p : positions) largest = std::max(largest, size(p));
-    for (std::size_t i = 0; i < positions.size(); ++i)
-      if (coarser[i].*body && positions[i].*body && size(positions[i]) >= near * largest)
-        difference = std::fmax(difference, std::abs(size(positions[i]) - size(coarser[i])));
+/// Along the mesh cycle a difference changes its sign here and there, where it says nothing about the error: the
+/// largest of a sixteenth of a cycle to either side counts. `values`: [position][load].
+std::vector<double> largest_nearby(const std::vector<double>& values, std::size_t loads, int phases) {
+  const auto along = static_cast<std::ptrdiff_t>(values.size() / loads);
+  const std::ptrdiff_t reach = (phases + 15) / 16;
+  std::vector<double> result = values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto at = static_cast<std::ptrdiff_t>(i / loads);
+    for (std::ptrdiff_t k = at - reach; k <= at + reach; ++k) {
+      // The last position is the first of the next cycle; a table that repeats closes on itself.
+      const std::ptrdiff_t wrapped = (k + along - 1) % (along - 1);
+      result[i] = std::max(result[i], values[static_cast<std::size_t>(wrapped) * loads + i % loads]);
+    }
+  }
+  return result;
+}
+
+/// What is left of stresses between two levels, and what the notch adds.
+struct LeftOfStress {
+  double difference = 0, notch = 0;
+  [[nodiscard]] double notch_of(double BodyStress::*value) const {
     const bool in_root = value == &BodyStress::root_tension || value == &BodyStress::root_compression ||
                          value == &BodyStress::root_von_mises;
-    result.*value = left * difference + (in_root ? notch * largest : 0);
+    return in_root ? notch : 0;
+  }
+};
+
+using StressOf = std::optional<RecoveredStress> LoadedPosition::*;
+
+double stress_size(const LoadedPosition& position, StressOf body, double BodyStress::*value) {
+  return position.*body ? std::abs((*(position.*body)).*value) : 0.0;
+}
+
+/// Fills the errors of the stresses of one body at every position and load.
+void fill_stress_errors(const LoadedMeshProblem& problem, const std::vector<LoadedPosition>& coarser, StressOf body,
+                        const LeftOfStress& left, std::vector<LoadedPosition>& positions) {
+  const std::size_t loads = problem.loads.size();
+  if (std::none_of(positions.begin(), positions.end(), [&](const auto& p) { return (p.*body).has_value(); })) return;
+  for (const auto value : stress_values) {
+    std::vector<double> largest(loads);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      largest[i % loads] = std::max(largest[i % loads], stress_size(positions[i], body, value));
+    const auto between = differences(coarser, loads, [&](std::size_t i) {
+      const double difference = stress_size(positions[i], body, value) - stress_size(coarser[i], body, value);
+      return largest[i % loads] > 0 ? std::abs(difference) / largest[i % loads] : 0.0;
+    });
+    const auto nearby = largest_nearby(between, loads, problem.phases);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      if (auto& stress = positions[i].*body)
+        stress->error.*value = left.difference * nearby[i] * largest[i % loads] +
+                               left.notch_of(value) * stress_size(positions[i], body, value) + stress->roughness.*value;
+  }
+}
+
+/// What is left of the largest stresses of one body at the middle load. Positions differ in where the fillet is cut by
+/// cells, so that the largest difference of all positions whose stress is near the largest counts.
+BodyStress largest_stress_errors(const LoadedMeshProblem& problem, const std::vector<LoadedPosition>& coarser,
+                                 const std::vector<LoadedPosition>& positions, StressOf body,
+                                 const LeftOfStress& left) {
+  constexpr double near = 0.9;
+  const std::size_t loads = problem.loads.size();
+  BodyStress result;
+  for (const auto value : stress_values) {
+    double largest = 0, difference = std::numeric_limits<double>::quiet_NaN(), roughness = 0;
+    for (std::size_t i = loads / 2; i < positions.size(); i += loads)
+      largest = std::max(largest, stress_size(positions[i], body, value));
+    for (std::size_t i = loads / 2; i < positions.size(); i += loads)
+      if (const double size = stress_size(positions[i], body, value);
+          coarser[i].*body && positions[i].*body && size >= near * largest) {
+        difference = std::fmax(difference, std::abs(size - stress_size(coarser[i], body, value)));
+        roughness = std::max(roughness, (*(positions[i].*body)).roughness.*value);
+      }
+    result.*value = left.difference * difference + left.notch_of(value) * largest + roughness;
   }
   return result;
 }
@@ -74,34 +133,31 @@ LevelErrors estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSe
                             std::optional<double> before) {
   const std::size_t loads = problem.loads.size();
   LevelErrors result;
-  std::vector<double> difference = differences(coarser, positions, loads);
+  const std::vector<double> difference = differences(coarser, loads, [&](std::size_t i) {
+    return std::abs(coarser[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
+  });
   for (std::size_t i = loads / 2; i < positions.size(); i += loads)
     result.difference = std::max(result.difference, difference[i]);
   const double left = left_over(settings.degree, result.difference, before);
   // The two levels of linear elements are far from their limit in a fillet: up to 2.7 of their difference was left in
   // plane sections (spur teeth with fillets of 0.38 modules).
   const double most_left = settings.degree == 1 ? 3 : most_left_over(settings.degree);
-  result.planet_stress = stress_errors(coarser, positions, &LoadedPosition::planet_stress, most_left, own.planet_notch);
-  result.wheel_stress = stress_errors(coarser, positions, &LoadedPosition::wheel_stress, most_left, own.wheel_notch);
-  for (double& d : difference) d *= left;
+  for (const auto& [body, largest, notch] :
+       {std::tuple{&LoadedPosition::planet_stress, &LevelErrors::planet_stress, own.planet_notch},
+        {&LoadedPosition::wheel_stress, &LevelErrors::wheel_stress, own.wheel_notch}}) {
+    result.*largest = largest_stress_errors(problem, coarser, positions, body, {most_left, notch});
+    fill_stress_errors(problem, coarser, body, {most_left, notch}, positions);
+  }
   const bool plane = settings.fidelity == Fidelity::plane || settings.fidelity == Fidelity::resolved_plane;
-  const double model = plane ? plane_strain_error(problem) : 0;
-  // Along the mesh cycle the difference changes its sign here and there, where it says nothing about the error: the
-  // largest of a sixteenth of a cycle to either side counts.
-  const auto along = static_cast<std::ptrdiff_t>(positions.size() / loads);
-  const std::ptrdiff_t reach = (problem.phases + 15) / 16;
+  const double model = plane ? plane_error(problem) : 0;
+  const auto nearby = largest_nearby(difference, loads, problem.phases);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     auto& entry = positions[i].entry;
     ErrorParts& parts = entry.error_parts;
     parts.contact = own.contact;
     parts.condensation = positions[i].reciprocity_relative;
     parts.model = model;
-    const auto at = static_cast<std::ptrdiff_t>(i / loads);
-    for (std::ptrdiff_t k = at - reach; k <= at + reach; ++k) {
-      // The last position is the first of the next cycle; a table that repeats closes on itself.
-      const std::ptrdiff_t wrapped = (k + along - 1) % (along - 1);
-      parts.discretisation = std::max(parts.discretisation, difference[wrapped * loads + i % loads]);
-    }
+    parts.discretisation = std::max(parts.discretisation, left * nearby[i]);
     entry.error_relative = parts.total();
     if (i % loads == loads / 2) result.worst = std::max(result.worst, entry.error_relative - model);
   }

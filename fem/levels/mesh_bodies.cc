@@ -144,8 +144,9 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   std::optional<SupportPlan> supports;
   if (wheel_plan.floating())
     // A slice per layer of elements: unilateral on its own.
-    supports.emplace(support_sites(problem), pair.wheel().teeth(), face.edges(std::max(1, counts.face_cells)),
-                     face.half);
+    supports.emplace(support_sites(problem), pair.wheel().teeth(),
+                     wheel_plan.support_edges(support_slices(problem, counts.face_cells)), face.half,
+                     wheel_plan.turn());
   GearTasks planet = maker.make(planet_plan, {}), wheel = maker.make(wheel_plan, supports);
 
   MeshBodies bodies;

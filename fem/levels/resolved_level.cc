@@ -179,7 +179,7 @@ LoadedPosition ResolvedMesh::solve(double phase, double load) const {
   const int first = wheel_tooth(flanks, pairs.front().first, 0);
   const int last = wheel_tooth(flanks, pairs.back().first, 0);
   ContactOptions options;
-  options.misalignment = problem.misalignment;
+  options.gaps = {problem.misalignment, problem.planet_overhang.below, problem.wheel_overhang.below};
   options.half_face = face.half;
   options.window = patch_window;
   options.pairs = pitch_beyond_path(flanks);  // further teeth have no meshes

@@ -20,14 +20,15 @@ namespace annulus::fem {
 struct LoadedMeshProblem {
   geometry::GearPair pair;
   MeshMaterials materials{};
-  double face_width = 0;            ///< m, common
+  double face_width = 0;            ///< m, of the common face, on which the flanks touch
   double planet_bore_radius = 0;    ///< m, rigid hub
   double wheel_support_radius = 0;  ///< m: bore of the sun (rigid hub) or outside radius of the ring
   RingStructure structure{};        ///< ring mesh only; the outside held unless set
   double misalignment = 0;          ///< m over the face width, normal to the flanks, > 0 opens towards +z
-  std::vector<double> loads{};      ///< N, total normal forces, strictly increasing
-  int phases = 16;                  ///< positions per mesh cycle
-  std::string name = "mesh";        ///< of the mesh in its stiffness table
+  geometry::Overhang planet_overhang{}, wheel_overhang{};  ///< teeth beyond the common face
+  std::vector<double> loads{};                             ///< N, total normal forces, strictly increasing
+  int phases = 16;                                         ///< positions per mesh cycle
+  std::string name = "mesh";                               ///< of the mesh in its stiffness table
 };
 
 /// Estimated relative error of a stiffness in plane strain for a face of finite width: towards its ends the material is
@@ -36,9 +37,13 @@ struct LoadedMeshProblem {
 /// by nu^2 / (1 - nu^2) = 9.9 %. 0.65 of that, falling with the width in units of ten modules, lies above.
 [[nodiscard]] double plane_strain_error(const LoadedMeshProblem& problem);
 
+/// What a plane section leaves out of the stiffness: that, and what teeth beyond the common face support.
+[[nodiscard]] double plane_error(const LoadedMeshProblem& problem);
+
 /// The wheel, as its supports see it.
 [[nodiscard]] inline SupportedRing supported_ring(const LoadedMeshProblem& problem) {
-  return {problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width, problem.materials.wheel};
+  return {problem.pair.wheel().teeth(), problem.wheel_support_radius,
+          problem.face_width + problem.wheel_overhang.total(), problem.materials.wheel};
 }
 /// The single supports of the wheel; none where a surface holds it. Throws InputError when they cannot hold it.
 [[nodiscard]] inline SupportSites support_sites(const LoadedMeshProblem& problem) {

@@ -40,6 +40,13 @@ inline constexpr double BodyStress::*stress_values[] = {&BodyStress::root_tensio
                                                         &BodyStress::root_von_mises,  &BodyStress::rim_tension,
                                                         &BodyStress::rim_compression, &BodyStress::rim_von_mises};
 
+struct RecoveredStress : BodyStress {
+  /// How far the largest stresses of a plane body stand out from the mean of their neighbours along the line, Pa,
+  /// positive: where cells change their shape, spikes of the elements shrink too slowly for two levels to tell.
+  BodyStress roughness;
+  BodyStress error;  ///< by discretisation, Pa, positive; NaN: not known
+};
+
 /// One position of the mesh under one load.
 struct LoadedPosition {
   double mesh_phase = 0;  ///< [0, 1], 1 included once as the closure check
@@ -57,8 +64,8 @@ struct LoadedPosition {
   std::vector<double> line_load;        ///< N/m, of all pairs together, per slice of the face width from low to high z
   double face_load_factor = 1;          ///< K_H_beta (ISO 6336-1): largest over mean line load
   std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only
-  std::optional<BodyStress> planet_stress{}, wheel_stress{};  ///< at the middle load of the table only
-  double force_balance_relative = 0;                          ///< |sum of force x lever arm - torque| / torque
+  std::optional<RecoveredStress> planet_stress{}, wheel_stress{};  ///< none of resolved models
+  double force_balance_relative = 0;                               ///< |sum of force x lever arm - torque| / torque
   /// |work - 2 x strain energy - work against the gaps| / the larger of work and energy
   double energy_balance_relative = 0;
   double reciprocity_relative = 0;  ///< asymmetry of the compliance between tooth pairs, formed both ways
@@ -123,8 +130,8 @@ struct LoadedMeshResult : SolvedBodies, SolveCost {
   int degree = 2;                         ///< of the elements of that level
   /// Largest estimated error at the middle load, plane strain not counted: what the accuracy is about.
   double worst_error_relative = 0;
-  /// Estimated errors by discretisation of the largest stresses over all positions, Pa, positive. NaN where two levels
-  /// did not have them.
+  /// Estimated errors by discretisation of the largest stresses over all positions at the middle load, Pa, positive.
+  /// NaN where two levels did not have them.
   BodyStress planet_stress_error{}, wheel_stress_error{};
 };
 

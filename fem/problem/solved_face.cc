@@ -10,7 +10,11 @@
 namespace annulus::fem {
 namespace {
 
-/// Whether the same is taken off a gear's flanks at both sides of the middle of the face.
+bool centred(const geometry::Overhang& overhang) {
+  return std::abs(overhang.below - overhang.above) <= 1e-9 * overhang.total();
+}
+
+/// Whether the same is taken off a gear's flanks at both sides of the middle of its face (of `width`).
 bool symmetric_lead(const geometry::Gear& gear, double width) {
   const geometry::ToothProfile profile(gear);
   constexpr int places = 16;
@@ -29,7 +33,9 @@ std::string asymmetry_of_face(const LoadedMeshProblem& problem) {
   const auto& pair = problem.pair;
   if (pair.pinion().helix_angle() != 0) return "helical teeth";
   if (problem.misalignment != 0) return "misaligned flanks";
-  if (!symmetric_lead(pair.pinion(), problem.face_width) || !symmetric_lead(pair.wheel(), problem.face_width))
+  if (!centred(problem.planet_overhang) || !centred(problem.wheel_overhang)) return "faces beside each other";
+  if (!symmetric_lead(pair.pinion(), problem.face_width + problem.planet_overhang.total()) ||
+      !symmetric_lead(pair.wheel(), problem.face_width + problem.wheel_overhang.total()))
     return "a lead modification that differs on both sides of the middle";
   return problem.structure.words().asymmetry;
 }

@@ -37,7 +37,7 @@ class StressRecovery {
     Eigen::MatrixXd tangential, von_mises;  ///< Pa, points x axial stations
   };
   struct Result {
-    BodyStress largest;
+    RecoveredStress largest;  ///< without its error
     Line root;  ///< of the tooth space with the largest von Mises stress, counter-clockwise; abscissa: arc length, m
     Line rim;   ///< abscissa: polar angle in the body's frame, rad, ascending
   };

@@ -28,9 +28,11 @@ geometry::Gear mirrored(const geometry::Gear& gear) {
   return geometry::Gear(parameters);
 }
 
-std::optional<SupportPlan> support_plan(const LoadedMeshProblem& problem) {
+std::optional<SupportPlan> support_plan(const LoadedMeshProblem& problem, const BodyPlan& body) {
   if (!on_single_supports(problem.structure)) return std::nullopt;
-  return SupportPlan(support_sites(problem), problem.pair.wheel().teeth(), {0, problem.face_width});
+  const auto& [below, above] = problem.wheel_overhang;
+  return SupportPlan(support_sites(problem), problem.pair.wheel().teeth(), {-below, problem.face_width + above}, false,
+                     body.turn());
 }
 
 /// Mesh forces of all planets, planet 0 at `position`: teeth x planets.
@@ -77,10 +79,11 @@ SolvedRingCoupling solve_level(const LoadedMeshProblem& problem, const std::vect
   const geometry::ToothProfile profile(mirrored(problem.pair.wheel()));
   const BodyPlan body(problem, profile, true, geometry::Boundary::trailing_flank, settings.degree, solid,
                       {problem.face_width, false});
-  const auto plan = support_plan(problem);
+  const auto plan = support_plan(problem, body);
   RingFlexibilityOptions options;
   options.roll = problem.pair.wheel_roll_length(problem.pair.roll_length_pitch());
   options.face_width = problem.face_width;
+  options.overhang = problem.wheel_overhang.total();
   options.solid = solid;
   options.motions = settings.motions;
   options.threads = settings.threads;

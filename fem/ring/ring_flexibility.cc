@@ -20,7 +20,7 @@ NodalLoad mesh_force(const SectorModel& model, const geometry::ToothProfile& pro
   const TraceBasis along(model.flank.profile, model.flank.degree);
   std::vector<double> over_width = {1.0};
   const auto& axial = model.flank.axial;
-  if (axial.size() > 1) over_width = TraceBasis(axial, model.flank.degree).mean_over(axial.front(), axial.back());
+  if (axial.size() > 1) over_width = TraceBasis(axial, model.flank.degree).mean_over(0, options.face_width);
   const auto ports = flank_forces(model, profile, flank);
   const double quarter = (along.high() - along.low()) / 4, least = quarter / 5;
   NodalLoad load;
@@ -41,7 +41,9 @@ NodalLoad mesh_force(const SectorModel& model, const geometry::ToothProfile& pro
 }
 
 /// What a plane model is known per unit of.
-double known_width(const RingFlexibilityOptions& options) { return options.solid ? 1 : options.face_width; }
+double known_width(const RingFlexibilityOptions& options) {
+  return options.solid ? 1 : options.face_width + options.overhang;
+}
 
 }  // namespace
 
@@ -147,7 +149,8 @@ RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution
   inputs(std::string("flexibility"));
   add_sector_inputs(inputs, mesh, plan.profile(), plan.support_radius(), material, wanted);
   add_slices(inputs, options.arcs);
-  inputs(options.roll, options.face_width, options.solid, options.motions.section, options.motions.axial);
+  inputs(options.roll, options.face_width, options.overhang, options.solid, options.motions.section,
+         options.motions.axial);
   const bool reused = read_or_make(options.store, inputs, unit, make);
   RingFlexibility ring =
       compose_flexibility(with_arcs(std::move(unit), options.arcs), plan.profile().gear(), plan.floating(), options);

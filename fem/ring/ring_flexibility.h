@@ -38,7 +38,8 @@ struct RingFlexibility {
 struct RingFlexibilityOptions {
   double roll = 0;  ///< m, of the ring at the pitch point
   double face_width = 0;
-  bool solid = false;  ///< whether sectors are solid
+  double overhang = 0;  ///< m, of the teeth beyond that face: a plane body is as wide as both
+  bool solid = false;   ///< whether sectors are solid
   MotionOrder motions;
   std::vector<ArcLoad> arcs;
   int threads = 1;

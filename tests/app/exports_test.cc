@@ -197,6 +197,22 @@ BOOST_AUTO_TEST_CASE(rexs_of_others) {
   BOOST_TEST(outcome.out.find("power_kW =      <- to be filled in") != std::string::npos);
   // 20 degrees, but for rounding of the unit.
   BOOST_TEST(outcome.out.find("\npressure_angle_deg = 20") != std::string::npos);
+  // Speed and torque at the shaft of the sun, angles in the sign of versions up to 1.3.
+  auto loaded = text("1.2", relation(6, "assembly", ref(40, "assembly") + ref(1, "part")) +
+                                relation(7, "assembly", ref(40, "assembly") + ref(41, "part")));
+  loaded = test::replaced(
+      loaded, "</components>",
+      R"(<component id="40" type="shaft"><attribute id="rotational_speed" unit="1 / min">-1500</attribute></component>)"
+      R"(<component id="41" type="external_load"><attribute id="torque_around_u_axis" unit="N m">75</attribute>)"
+      "</component></components>");
+  for (const auto& [old, with] : {std::pair{std::string("unit=\"rad\""), std::string("unit=\"°\"")},
+                                  {fmt::format("{}", std::numbers::pi / 9), "20"}})
+    for (std::size_t at = 0; (at = loaded.find(old, at)) != std::string::npos;) loaded.replace(at, old.size(), with);
+  write_file(folder.path() / "loaded.rexs", loaded);
+  const auto moved = test::run_program(folder.path(), "new --rexs loaded.rexs");
+  BOOST_TEST(moved.status == 0, moved.err);
+  for (const char* line : {"\nsun_speed_rpm = 1500\n", "\nsun_torque_Nm = 75\n", "\npressure_angle_deg = 20\n"})
+    BOOST_TEST(moved.out.find(line) != std::string::npos, line);
   // A character that TOML wants escaped, in the title.
   write_file(folder.path() / "dele\x7fte.rexs", text("1.2", ""));
   const auto odd = test::run_program(folder.path(), "new --rexs dele\x7fte.rexs");

@@ -107,9 +107,9 @@ fem::LoadedMeshResult made_up_solution(const app::MeshModel& model) {
         if (solid) p.face_load_factor = 1 + slope * 11.0 / 12;  // the outermost of twelve slices
         p.max_pressure -= 1e6 * p.mesh_phase;
         const double fade = 1 - 0.1 * p.mesh_phase - 0.001 * tooth;
-        p.planet_stress = fem::BodyStress{150e6 * fade, -180e6 * fade, 200e6 * fade, 20e6, -25e6, 30e6};
-        p.wheel_stress =
-            fem::BodyStress{120e6 * fade, -140e6 * fade, 160e6 * fade, 40e6 * fade, -45e6 * fade, 50e6 * fade};
+        p.planet_stress = fem::RecoveredStress{{150e6 * fade, -180e6 * fade, 200e6 * fade, 20e6, -25e6, 30e6}, {}, {}};
+        p.wheel_stress = fem::RecoveredStress{
+            {120e6 * fade, -140e6 * fade, 160e6 * fade, 40e6 * fade, -45e6 * fade, 50e6 * fade}, {}, {}};
         for (const double angle : pins) p.pins.push_back(pin_state(problem.structure, angle - p.ring_angle, p.load));
         entries.push_back(p.entry);
         positions.push_back(std::move(p));

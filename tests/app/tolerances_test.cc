@@ -46,6 +46,15 @@ BOOST_AUTO_TEST_CASE(zones_follow_from_class_and_tolerances) {
   BOOST_TEST(zones.sun_eccentricity == 14.5 * units::um, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(zones.ring_eccentricity == 25 * units::um, boost::test_tools::tolerance(1e-12));
   BOOST_TEST((zones.within == dynamics::WithinZone::normal));
+  // A better sun, 28.5 / √2 -> 20 µm, and a worse ring; the planets have no class.
+  const auto own =
+      zones_of("[tolerances]\nsun_accuracy_class = 4\nring_accuracy_class = 7\nplanet_pin_position_um = 30\n");
+  BOOST_TEST(own.sun_eccentricity == 10 * units::um, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(own.planet_eccentricity == 0);
+  BOOST_TEST(own.ring_eccentricity > 2 * own.sun_eccentricity);
+  const auto mixed = zones_of("[tolerances]\naccuracy_class = 6\nsun_accuracy_class = 4\n");
+  BOOST_TEST(mixed.sun_eccentricity == own.sun_eccentricity);
+  BOOST_TEST(mixed.planet_eccentricity == zones.planet_eccentricity);
   const auto pins = zones_of("[tolerances]\nplanet_pin_position_um = 30\ndistribution = \"uniform\"\n");
   BOOST_TEST(pins.sun_eccentricity == 0);
   BOOST_TEST((pins.within == dynamics::WithinZone::uniform));

@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(rigid_bearings) {
   annulus::test::Verification record("Pin forces in rigid bearings",
                                      "the carrier's equation of rotation, from sampled velocities");
   auto stage = stages::ring_paper();
-  stage.planet.bearing_radial = stage.planet.bearing_tangential = rigid;
+  stage.planet_bearings.clear();
   stage.carrier.support = rigid;
   const auto series = steady_series(stage, 256);
   const auto pins = annulus::dynamics::bearing_forces(stage, series);

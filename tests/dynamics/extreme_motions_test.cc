@@ -27,7 +27,7 @@ std::vector<double> all_frequencies(const PlanetaryStage& stage) {
 PlanetaryStage with_supports(double k) {
   auto stage = stages::ring_paper();
   stage.sun.support = stage.ring.support = stage.carrier.support = k;
-  stage.planet.bearing_radial = stage.planet.bearing_tangential = k;
+  stage.planet_bearings = {{k, k}};
   stage.ring.torsional_support = k;
   return stage;
 }
@@ -83,7 +83,7 @@ PlanetaryStage in_time_unit(double unit, Scaled scaled) {
   }
   for (auto* body : {&stage.sun, &stage.ring, &stage.carrier})
     body->support /= square, body->torsional_support /= square;
-  stage.planet.bearing_radial /= square, stage.planet.bearing_tangential /= square;
+  for (auto& bearing : stage.planet_bearings) bearing.radial /= square, bearing.tangential /= square;
   stage.sun_mesh = HarmonicStiffness{1.364e9 / square, 0.2258, 0};
   stage.ring_mesh = HarmonicStiffness{1.87e9 / square, 0.1294, 0};
   stage.sun_torque /= square;
@@ -254,7 +254,7 @@ BOOST_AUTO_TEST_CASE(light_loads_are_balanced_to_rounding) {
 // Unequal planets on held centres share by their paths alone: L = 1 + max K (mean error - error) / F.
 BOOST_AUTO_TEST_CASE(unequal_planet_spacing) {
   auto stage = with_supports(rigid);
-  stage.planet.bearing_radial = stage.planet.bearing_tangential = 1e9;
+  stage.planet_bearings = {{1e9, 1e9}};
   stage.ring.torsional_support = rigid;
   stage.planet_angles.clear(), stage.sun_phase_lag.clear(), stage.ring_phase_lag.clear();
   const auto fraction = [](double x) { return x - std::floor(x); };

@@ -83,8 +83,8 @@ BOOST_AUTO_TEST_CASE(shares_are_sensitivities) {
   check("sun_planet", [](PlanetaryStage& s, double f) { s.sun_mesh = ConstantStiffness{5e8 * f}; });
   check("ring_planet", [](PlanetaryStage& s, double f) { s.ring_mesh = ConstantStiffness{5e8 * f}; });
   check("planet_bearing", [](PlanetaryStage& s, double f) {
-    s.planet.bearing_radial *= f;
-    s.planet.bearing_tangential *= f;
+    s.planet_bearings.front().radial *= f;
+    s.planet_bearings.front().tangential *= f;
   });
   check("sun_support", [](PlanetaryStage& s, double f) { s.sun.support *= f; });
   check("carrier_support", [](PlanetaryStage& s, double f) { s.carrier.support *= f; });

@@ -108,9 +108,9 @@ BOOST_AUTO_TEST_CASE(torsional_closed_form) {
       "closed form: Kahraman, Mech. Mach. Theory 29 (1994); reduction to three degrees of freedom");
   auto stage = stages::ring_paper();
   for (double* support :
-       {&stage.sun.support, &stage.ring.support, &stage.carrier.support, &stage.ring.torsional_support,
-        &stage.planet.bearing_radial, &stage.planet.bearing_tangential})
+       {&stage.sun.support, &stage.ring.support, &stage.carrier.support, &stage.ring.torsional_support})
     *support = rigid;
+  stage.planet_bearings.clear();
   const auto found = annulus::dynamics::modes(stage);
   BOOST_REQUIRE(found.modes.size() == 7U);
   const double mp = stage.planet.inertia / std::pow(stage.planet.radius, 2);
@@ -144,11 +144,11 @@ BOOST_AUTO_TEST_CASE(rigid_bearings_are_the_limit_of_stiff_ones) {
   annulus::test::Verification record("A stiff planet bearing tends to the rigid one",
                                      "limit: the difference is of first order in 1 / bearing stiffness");
   auto stage = stages::ring_paper();
-  stage.planet.bearing_radial = stage.planet.bearing_tangential = rigid;
+  stage.planet_bearings.clear();
   const auto limit = annulus::dynamics::modes(stage);
   double previous = 0;
   for (const double stiffness : {1e12, 1e13}) {
-    stage.planet.bearing_radial = stage.planet.bearing_tangential = stiffness;
+    stage.planet_bearings = {{stiffness, stiffness}};
     const auto found = annulus::dynamics::modes(stage);
     double worst = 0;
     for (std::size_t i = 1; i < limit.modes.size(); ++i)

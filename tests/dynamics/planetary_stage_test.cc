@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "dynamics/statics/static_solver.h"
 #include "dynamics/system/lumped_system.h"
 #include "geometry/planetary.h"
 #include "tests/dynamics/stages.h"
@@ -245,7 +246,7 @@ BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_dofs) {
   stage.ring.support = stage.ring.torsional_support = rigid;
   BOOST_TEST(assemble(stage).find("ring_x") == -1);
   BOOST_TEST(assemble(stage).dofs() == 6 + 15);
-  stage.planet.bearing_radial = stage.planet.bearing_tangential = rigid;
+  stage.planet_bearings.clear();
   BOOST_TEST(assemble(stage).dofs() == 6 + 5);
   stage.sun.support = stage.carrier.support = rigid;
   const auto torsional = assemble(stage);
@@ -255,6 +256,38 @@ BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_dofs) {
   const int c = torsional.find("carrier_u");
   const double alone = stage.carrier.inertia / (stage.carrier.radius * stage.carrier.radius);
   BOOST_TEST(std::abs(torsional.mass()(c, c) - alone - 5 * stage.planet.mass) <= 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(planets_on_unequal_bearings_share_as_the_stiffness_of_their_paths) {
+  annulus::test::Verification record(
+      "Load sharing of planets on unequal bearings, all axes held",
+      "springs in series: two meshes, the bearing along the tangent with lever cos a_s + cos a_r and along the radius "
+      "with sin a_s - sin a_r");
+  auto stage = stages::ring_paper();
+  stage.planet_errors.clear();
+  stage.sun_mesh = ConstantStiffness{1.4e9};
+  stage.ring_mesh = ConstantStiffness{1.9e9};
+  stage.sun.support = stage.ring.support = stage.carrier.support = stage.ring.torsional_support = rigid;
+  stage.planet_bearings = {{1e9, 2e9}, {3e8, 2e9}, {1e9, 4e8}, {rigid, 1e9}, {5e8, rigid}};
+  const double as = stage.sun_working_angle, ar = stage.ring_working_angle;
+  const double tangential = std::pow(std::cos(as) + std::cos(ar), 2), radial = std::pow(std::sin(as) - std::sin(ar), 2);
+  std::vector<double> path;
+  double all = 0;
+  for (const auto& bearing : stage.planet_bearings) {
+    path.push_back(1 / (1 / 1.4e9 + 1 / 1.9e9 + tangential / bearing.tangential + radial / bearing.radial));
+    all += path.back();
+  }
+  const auto system = assemble(stage);
+  BOOST_TEST(system.find("planet4_x") == -1);
+  BOOST_TEST(system.find("planet5_y") == -1);
+  auto workspace = system.workspace();
+  (void)StaticSolver(system).solve(0, workspace);
+  double off = 0;
+  for (std::size_t n = 0; n < path.size(); ++n)
+    for (const auto mesh : {n, n + path.size()})
+      off = std::max(off, std::abs(workspace.force[mesh] / (5 * stage.mean_mesh_force() * path[n] / all) - 1));
+  record.at_most("largest difference of a mesh force, relative", "", off, 1e-9, "rounding of equilibrium and meshes");
+  BOOST_TEST(path[1] / path[2] > 1.2);  // unequal indeed
 }
 
 BOOST_AUTO_TEST_CASE(contradictions_are_refused) {
@@ -273,6 +306,8 @@ BOOST_AUTO_TEST_CASE(contradictions_are_refused) {
   BOOST_TEST(refused([](auto& s) { s.planet.inertia = NAN; }));
   BOOST_TEST(refused([](auto& s) { s.sun.support = -1; }));
   BOOST_TEST(refused([](auto& s) { s.planet_errors.pop_back(); }));
+  BOOST_TEST(refused([](auto& s) { s.planet_bearings = {{1e9, 1e9}, {1e9, 1e9}}; }));
+  BOOST_TEST(refused([](auto& s) { s.planet_bearings = {{1e9, 0}}; }));
   BOOST_TEST(refused([](auto& s) { s.ring_phase_lag.push_back(0); }));
   BOOST_TEST(refused([](auto& s) { s.planet_angles.clear(); }));
   BOOST_TEST(refused([](auto& s) { s.sun_half_backlash = -1e-6; }));

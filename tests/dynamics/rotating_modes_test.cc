@@ -33,7 +33,7 @@ PlanetaryStage single_mass(double support, double damping_ratio) {
   stage.sun = {2.0, 1.0, 1, support, rigid, {}};
   stage.ring.support = stage.carrier.support = rigid;
   stage.ring.torsional_support = stage.carrier.torsional_support = rigid;
-  stage.planet.bearing_radial = stage.planet.bearing_tangential = rigid;
+  stage.planet_bearings.clear();
   stage.sun_mesh = stage.ring_mesh = ConstantStiffness{1e-3};
   stage.support_damping_ratio = damping_ratio;
   return stage;

@@ -33,7 +33,7 @@ PlanetaryStage floating_sun(int planets) {
   s.set_half_backlash(std::nullopt);
   s.sun.support = 0;
   s.ring.support = s.ring.torsional_support = s.carrier.support = rigid;
-  s.planet.bearing_radial = s.planet.bearing_tangential = rigid;
+  s.planet_bearings.clear();
   return s;
 }
 

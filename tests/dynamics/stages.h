@@ -31,7 +31,7 @@ inline PlanetaryStage ring_paper() {
   s.sun.support = 1e7;
   s.planet.mass = 8.51;
   s.planet.inertia = 0.09282;
-  s.planet.bearing_radial = s.planet.bearing_tangential = 1e9;
+  s.planet_bearings = {{1e9, 1e9}};
   s.ring.mass = 31.25;
   s.ring.inertia = 2.9606;
   s.ring.support = 1e9;
@@ -65,7 +65,8 @@ inline PlanetaryStage lin_parker(int planets) {
   s.sun = {0.4, 0.39, 1, 1e8, 0, {}};
   s.ring = {2.35, 3.00, 1, 1e8, 1e9, {}};
   s.carrier = {5.43, 6.29, 1, 1e8, 0, {}};
-  s.planet = {0.66, 0.61, 1, 1e8, 1e8};
+  s.planet = {0.66, 0.61, 1};
+  s.planet_bearings = {{1e8, 1e8}};
   s.sun_working_angle = s.ring_working_angle = 24.6 * units::deg;
   s.sun_mesh = s.ring_mesh = ConstantStiffness{5e8};
   for (int n = 0; n < planets; ++n) s.planet_angles.push_back(2 * std::numbers::pi * n / planets);

@@ -52,8 +52,8 @@ LoadedMeshResult solve(const LoadedMeshProblem& problem, std::shared_ptr<ResultS
   return solve_loaded_mesh(problem, settings);
 }
 
-/// Stresses are told at the nominal load alone.
-bool differ(const std::optional<BodyStress>& a, const std::optional<BodyStress>& b) {
+template <class Stress>
+bool differ(const std::optional<Stress>& a, const std::optional<Stress>& b) {
   if (!a || !b) return a.has_value() != b.has_value();
   return a->root_von_mises != b->root_von_mises || a->rim_von_mises != b->rim_von_mises;
 }

@@ -30,7 +30,7 @@ ContactBench::ContactBench(const fem::LoadedMeshProblem& problem, int level, fem
 }
 
 void ContactBench::misalign(double misalignment) {
-  options_.misalignment = misalignment;
+  options_.gaps = {misalignment, problem_.planet_overhang.below, problem_.wheel_overhang.below};
   rebuild();
 }
 

@@ -9,7 +9,6 @@
 #include "contact_bench.h"
 #include "core/errors.h"
 #include "fem/contact/hertz.h"
-#include "ring_paper.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"
 
@@ -18,24 +17,9 @@ BOOST_AUTO_TEST_SUITE(helical_mesh)
 
 using namespace annulus::tests;
 using annulus::fem::LoadedPosition;
-using annulus::geometry::Gear;
 
-/// The ring paper's sun and planet with helical teeth, at the centre distance without backlash.
-annulus::fem::LoadedMeshProblem helical_sun_mesh(double helix_angle) {
-  auto planet = ring_paper_planet(), sun = ring_paper_sun();
-  planet.helix_angle = helix_angle;
-  sun.helix_angle = -helix_angle;
-  const Gear p(planet), s(sun);
-  const double alpha_t = p.transverse_pressure_angle();
-  const double involute = annulus::geometry::involute(alpha_t) + 2 * std::tan(planet.pressure_angle) *
-                                                                     (planet.profile_shift + sun.profile_shift) /
-                                                                     (planet.teeth + sun.teeth);
-  const double alpha_w = annulus::geometry::inverse_involute(involute);
-  const double distance = (p.reference_radius() + s.reference_radius()) * std::cos(alpha_t) / std::cos(alpha_w);
-  auto problem = sun_mesh(2);
-  problem.pair = {p, s, distance};
-  return problem;
-}
+/// The ring paper's sun and planet with helical teeth.
+annulus::fem::LoadedMeshProblem helical_sun_mesh(double helix_angle) { return with_helix(sun_mesh(2), helix_angle); }
 
 double mean_lte(const std::vector<LoadedPosition>& positions) {
   double sum = 0;

@@ -458,18 +458,9 @@ BOOST_AUTO_TEST_CASE(a_linear_ring_couples_alike_at_every_position) {
                  "cubic between teeth: (2 pi / 20)^4 / 40");
 }
 
-/// The ring mesh of the paper with helical teeth, without backlash, on a sleeve.
+/// The ring mesh of the paper with helical teeth, on a sleeve.
 SolvedRingCoupling helical_sleeve(double helix_angle) {
-  auto problem = ring_mesh(EndFaceHeld{18e-3, 10.6e-3, {}}, 2);
-  auto planet = problem.pair.pinion().parameters(), wheel = problem.pair.wheel().parameters();
-  planet.helix_angle = wheel.helix_angle = helix_angle;
-  const annulus::geometry::Gear p(planet), r(wheel);
-  const double alpha = p.transverse_pressure_angle();
-  const double involute = annulus::geometry::involute(alpha) + 2 * std::tan(planet.pressure_angle) *
-                                                                   (wheel.profile_shift - planet.profile_shift) /
-                                                                   (wheel.teeth - planet.teeth);
-  const double working = annulus::geometry::inverse_involute(involute);
-  problem.pair = {p, r, (r.reference_radius() - p.reference_radius()) * std::cos(alpha) / std::cos(working)};
+  const auto problem = with_helix(ring_mesh(EndFaceHeld{18e-3, 10.6e-3, {}}, 2), helix_angle);
   RingCouplingSettings settings;
   settings.modes.count = 6;
   settings.motions = {1, 1};

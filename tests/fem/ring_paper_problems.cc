@@ -40,6 +40,21 @@ fem::LoadedMeshProblem with_planet_lead(fem::LoadedMeshProblem problem, double c
   return problem;
 }
 
+fem::LoadedMeshProblem with_helix(fem::LoadedMeshProblem problem, double helix_angle) {
+  auto planet = problem.pair.pinion().parameters(), wheel = problem.pair.wheel().parameters();
+  const double side = problem.pair.internal() ? -1 : 1;
+  planet.helix_angle = helix_angle;
+  wheel.helix_angle = -side * helix_angle;
+  const geometry::Gear p(planet), w(wheel);
+  const double alpha = p.transverse_pressure_angle();
+  const double involute = geometry::involute(alpha) + 2 * std::tan(planet.pressure_angle) *
+                                                          (wheel.profile_shift + side * planet.profile_shift) /
+                                                          (wheel.teeth + side * planet.teeth);
+  const double working = geometry::inverse_involute(involute);
+  problem.pair = {p, w, (w.reference_radius() + side * p.reference_radius()) * std::cos(alpha) / std::cos(working)};
+  return problem;
+}
+
 fem::PinHeld paper_pins(int pins, double first_pin_angle) {
   fem::PinHeld held;
   held.angles = fem::equal_angles(pins, first_pin_angle);

@@ -22,6 +22,9 @@ fem::LoadedMeshProblem ring_mesh(const fem::RingStructure& structure, int phases
 fem::LoadedMeshProblem sun_mesh(int phases, std::vector<double> loads = {nominal_load});
 /// The same with a modified lead of the planet, m.
 fem::LoadedMeshProblem with_planet_lead(fem::LoadedMeshProblem problem, double crowning, double slope);
+/// The same with helical teeth (planet and ring right-handed for a positive angle, rad; a sun left-handed), at the
+/// centre distance without backlash.
+fem::LoadedMeshProblem with_helix(fem::LoadedMeshProblem problem, double helix_angle);
 /// Pins in equal spacing.
 fem::PinHeld paper_pins(int pins, double first_pin_angle);
 

@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(helical_pairs) {
                    side * ToothProfile(pair.wheel()).twist() * pair.wheel().base_radius(),
                boost::test_tools::tolerance(1e-13));
   }
-  // The smaller face width counts.
+  // The common face counts.
   planet.face_width = 5 * units::mm;
   BOOST_TEST(GearPair(Gear(planet), Gear(sun), 59.3 * units::mm).overlap_ratio() == external.overlap_ratio() / 4,
              boost::test_tools::tolerance(1e-13));
@@ -125,6 +125,23 @@ BOOST_AUTO_TEST_CASE(helical_pairs) {
   refuse(helical(sun, -19 * units::deg), 59.3 * units::mm);
   refuse(helical(sun, 0), 59.3 * units::mm);
   refuse(helical(ring, -beta), 54.5 * units::mm);
+}
+
+BOOST_AUTO_TEST_CASE(faces_overlap) {
+  auto planet = plain_gear(GearKind::external, 24, 0.2), sun = plain_gear(GearKind::external, 30, 0.1);
+  const auto face_of = [&] { return GearPair(Gear(planet), Gear(sun), 54.9 * units::mm).common_face(); };
+  const auto same = [](double a, double b) { return std::abs(a - b) < 1e-15; };
+  planet.face_width = 20 * units::mm;
+  sun.face_width = 26 * units::mm;
+  auto face = face_of();
+  BOOST_TEST((same(face.width, 0.02) && face.pinion.total() == 0));
+  BOOST_TEST((same(face.wheel.below, 3e-3) && same(face.wheel.above, 3e-3)));
+  sun.axial_offset = 5 * units::mm;  // from -8 to 18 mm against -10 to 10 mm
+  face = face_of();
+  BOOST_TEST((same(face.width, 0.018) && same(face.pinion.below, 2e-3) && face.pinion.above == 0));
+  BOOST_TEST((face.wheel.below == 0 && same(face.wheel.above, 8e-3)));
+  sun.axial_offset = -24 * units::mm;
+  check_refused([&] { (void)face_of(); }, "24.0000 mm apart along the axis");
 }
 
 BOOST_AUTO_TEST_CASE(path_of_contact) {

@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(impossible_gears_are_refused_with_the_reason) {
   const auto refuse = [](const GearParameters& p, const std::string& part) {
     check_refused([&] { (void)Gear(p); }, part);
   };
-  auto p = plain_gear(GearKind::external, 14);
+  auto p = plain_gear(GearKind::external, 14, -0.8);
   refuse(p, "undercut");
   p.profile_shift = 0.3;
   BOOST_CHECK_NO_THROW(Gear{p});
@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(impossible_gears_are_refused_with_the_reason) {
   refuse(helical(plain_gear(GearKind::external, 30), -46 * units::deg), "helix angle");
 }
 
-// The message of an undercut gear names the shift that cures it, and a little less does not.
+// The rack that reaches beyond the start of the involute takes some of it away.
 BOOST_AUTO_TEST_CASE(undercut_starts_at_the_limit_of_the_generating_rack) {
   for (const double beta : {0.0, 20 * units::deg}) {
     auto p = helical(plain_gear(GearKind::external, 12), beta);
@@ -165,8 +165,17 @@ BOOST_AUTO_TEST_CASE(undercut_starts_at_the_limit_of_the_generating_rack) {
     const double limit = 1.25 - p.root_fillet_factor * (1 - std::sin(p.pressure_angle)) -
                          p.teeth / (2 * std::cos(beta)) * std::pow(std::sin(transverse), 2);
     p.profile_shift = limit + 1e-6;
-    BOOST_CHECK_NO_THROW(Gear{p});
-    p.profile_shift = limit - 1e-6;
+    BOOST_TEST(!Gear(p).undercut());
+    BOOST_TEST(Gear(p).form_radius() > Gear(p).base_radius());
+    double before = Gear(p).base_radius();
+    for (const double less : {1e-3, 0.1, 0.3}) {
+      p.profile_shift = limit - less;
+      const Gear gear(p);
+      BOOST_TEST(gear.undercut());
+      BOOST_TEST(gear.form_radius() > before);
+      before = gear.form_radius();
+    }
+    p.profile_shift = limit - 0.8;
     check_refused([&] { (void)Gear(p); }, "undercut");
   }
 }
@@ -245,7 +254,10 @@ BOOST_AUTO_TEST_CASE(external_outline_is_the_envelope_of_the_rack) {
                                        {19, 0.0, 15.0},
                                        {17, 0.6, -30.0},
                                        {40, -0.4, 30.0},
-                                       {150, 0.9, 42.0}}) {
+                                       {150, 0.9, 42.0},
+                                       {14, 0.0, 0.0},       // undercut
+                                       {17, -0.2, 0.0},      // likewise
+                                       {12, 0.05, 20.0}}) {  // likewise
     const auto p = helical(plain_gear(GearKind::external, teeth, x), beta * units::deg);
     const Gear g(p);
     const ToothProfile profile(g);

@@ -30,6 +30,13 @@ void material_keys(Draw& draw, GearSet& set, const std::string& gear, const Rack
   for (const auto* key : {".youngs_modulus_GPa", ".poisson_ratio", ".density_kg_per_m3"}) set.chances[gear + key] = 0.1;
 }
 
+void face_keys(Draw& draw, GearSet& set, const std::string& gear, const Rack& rack) {
+  set.values[gear + ".face_width_mm"] = rounded(rack.face_width_mm * draw.uniform(0.9, 1.2));
+  set.values[gear + ".axial_offset_mm"] = rounded(rack.face_width_mm * draw.uniform(-0.02, 0.02));
+  set.chances[gear + ".face_width_mm"] = 0.2;
+  set.chances[gear + ".axial_offset_mm"] = 0.1;
+}
+
 void mesh_keys(GearSet& set, const std::string& mesh, Section section) {
   if (section != Section::solid) set.chances["errors." + mesh + "_misalignment_um"] = 0;
 }

@@ -57,6 +57,8 @@ void flank_keys(GearSet& set, const std::string& gear, Section section);
 /// No misalignment of a mesh that is the same along the face width.
 /// A gear now and then has a material of its own.
 void material_keys(Draw& draw, GearSet& set, const std::string& gear, const Rack& rack);
+/// Face width and offset of a gear: near those of the others, so that a plane section still stands for all.
+void face_keys(Draw& draw, GearSet& set, const std::string& gear, const Rack& rack);
 void mesh_keys(GearSet& set, const std::string& mesh, Section section);
 
 /// kg and kg m² of a disc of this diameter, 0.7 to 1.5 times that of a solid one of steel.

@@ -33,6 +33,7 @@ GearSet helical_pair_set(Draw& draw, Section section) {
     v[key + ".inertia_kg_m2"] = disc.inertia;
     flank_keys(set, key, section);
     material_keys(draw, set, key, rack);
+    face_keys(draw, set, key, rack);
     set.chances[key + ".bearing_transverse_N_per_m"] = set.chances[key + ".bearing_axial_N_per_m"] = 0.7;
     for (const auto* what : {"_total_um", "_tooth_to_tooth_um"})
       v["manufacturing_error." + key + what] =

@@ -195,6 +195,7 @@ GearSet planetary_set(Draw& draw, Section section) {
   for (const auto* body : {"sun", "planet", "ring"}) {
     flank_keys(set, body, section);
     material_keys(draw, set, body, rack);
+    face_keys(draw, set, body, rack);
   }
   for (const auto* mesh : {"sun_planet", "ring_planet"}) mesh_keys(set, mesh, section);
   set.chances["carrier"] = 1;

@@ -146,7 +146,7 @@ Relation more_planets() {
             auto tables = scene.draft;
             if (tables.text_of("stage.kind") != "planetary" || tables.find("stage.planet_angles_deg") != nullptr)
               return std::nullopt;
-            for (const auto* table : {"errors", "dynamics"}) tables.remove_table(table);
+            for (const auto* table : {"errors", "supports", "dynamics"}) tables.remove_table(table);
             auto more = tables;
             more.set("stage.planets", 2 * static_cast<long>(tables.number("stage.planets")));
             more.scale("stage.power_kW", 2);
@@ -167,7 +167,8 @@ Relation mirror() {
             bool changed = false;
             for (const auto& t : app::schema(scene.kind))
               for (const auto& p : t.parameters)
-                if (p.name == "helix_angle_deg" || p.name == "lead_slope_um" || p.name.ends_with("misalignment_um")) {
+                if (p.name == "helix_angle_deg" || p.name == "lead_slope_um" || p.name == "axial_offset_mm" ||
+                    p.name.ends_with("misalignment_um")) {
                   changed = changed || draft.find(p.key()) != nullptr;
                   mirrored.scale(p.key(), -1);
                 }
@@ -189,7 +190,8 @@ SceneDraft in_a_mirror(const RandomScene& scene) {
   const auto planets = static_cast<std::size_t>(mirrored.number("stage.planets"));
   for (const auto* list :
        {"errors.planet_eccentricity_um", "errors.planet_eccentricity_phase_deg", "errors.planet_pin_position_error_um",
-        "errors.planet_pin_position_error_phase_deg", "stage.planet_angles_deg"})
+        "errors.planet_pin_position_error_phase_deg", "supports.planet_radial_N_per_m",
+        "supports.planet_tangential_N_per_m", "stage.planet_angles_deg"})
     if (const auto* value = mirrored.find(list)) {
       auto values = std::get<std::vector<double>>(*value);
       if (values.size() == planets) std::reverse(values.begin() + 1, values.end());

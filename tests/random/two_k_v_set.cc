@@ -69,6 +69,7 @@ GearSet two_k_v_set(Draw& draw, Section section) {
   for (const auto* body : {"sun", "planet"}) {
     flank_keys(set, body, section);
     material_keys(draw, set, body, rack);
+    face_keys(draw, set, body, rack);
   }
   set.chances["mesh.sun_planet"] = 0.3;
   set.chances["mesh.arc_pins"] = 0.5;

@@ -53,6 +53,8 @@ struct GearInput {
   std::optional<int> span_teeth;                         ///< or spaces
   std::optional<double> span, over_pins, measuring_pin;  ///< m
   std::optional<double> mass, inertia;
+  std::optional<double> face_width;                              ///< m, instead of that of [stage]
+  double axial_offset = 0;                                       ///< m, of the middle of the face
   std::optional<double> youngs_modulus, poisson_ratio, density;  ///< instead of those of [material]
   std::optional<double> tip_diameter, root_diameter;
   double root_fillet_factor = 0;

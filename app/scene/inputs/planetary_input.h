@@ -38,15 +38,22 @@ struct RingInput : GearInput {
 /// N/m; `rigid` drops the DOF. Torsional values are in the coordinate u = base radius x angle.
 struct SupportInput {
   double sun = rigid, ring = rigid, carrier = rigid, planet = rigid;
+  std::vector<double> planet_radial, planet_tangential;  ///< one per planet; empty: `planet`
   /// Absent: rigid of the member that is held, none of the others (torsional_support).
   std::optional<double> sun_torsional, ring_torsional, carrier_torsional;
+
+  [[nodiscard]] double planet_bearing(std::vector<double> SupportInput::*direction, std::size_t n) const {
+    const auto& own = this->*direction;
+    return own.empty() ? planet : own.at(n);
+  }
 };
 
 enum class ToleranceLaw { normal, uniform };
 
 /// Tolerances of the gears and the carrier, and the assemblies drawn within them.
 struct ToleranceInput {
-  std::optional<int> accuracy_class;                             ///< ISO 1328-1, of all gears
+  std::optional<int> accuracy_class;                             ///< ISO 1328-1, of gears without their own
+  std::optional<int> sun_class, planet_class, ring_class;        ///< instead of it
   std::optional<double> sun_runout, planet_runout, ring_runout;  ///< m, instead of that of the class
   std::optional<double> planet_pin_position;                     ///< m, diameter of the zone
   ToleranceLaw distribution = ToleranceLaw::normal;

@@ -30,9 +30,9 @@ dynamics::ErrorResult law_of(const dynamics::ErrorProblem& problem) {
   return last.second;
 }
 
-using Lines = std::vector<std::pair<std::string, std::string>>;
+using LinesOfCauses = std::vector<std::pair<std::string, std::string>>;
 
-Lines provenance(const dynamics::ErrorProblem& p) {
+LinesOfCauses provenance(const dynamics::ErrorProblem& p) {
   return {{"annulus_version", version()},
           {"samples", fmt::format("{}", p.samples)},
           {"seed", fmt::format("{}", p.seed)},

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/model/stiff_supports.h"
+#include "app/plan/gear_geometry.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "core/units.h"
 #include "dynamics/steady_state/integration_cost.h"
@@ -68,7 +69,7 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
     for (const auto& [name, gear, input] :
          {std::tuple{"pinion", &geometry.pinion(), &scene.pinion}, {"wheel", &geometry.wheel(), &scene.wheel}}) {
       const double r = gear->reference_radius();
-      const double disc = std::numbers::pi * r * r * scene.stage.face_width * material_of(scene, *input).density;
+      const double disc = std::numbers::pi * r * r * face_width_of(scene, *input) * material_of(scene, *input).density;
       if (input->mass && std::abs(*input->mass / disc - 1) > 0.25)
         list.push_back(fmt::format("The {} weighs {} kg, a solid disc of its reference circle and face width {} kg.",
                                    name, to_text(*input->mass, 4), to_text(disc, 3)));

@@ -55,7 +55,7 @@ std::string pair_solid_reason(const Scene& scene, const PairGeometry& geometry) 
 }
 
 double iso_pair_stiffness(const Scene& scene, const PairGeometry& geometry) {
-  return dynamics::iso_6336_mesh_stiffness({scene.stage.face_width, geometry.gears.contact_ratio(),
+  return dynamics::iso_6336_mesh_stiffness({geometry.gears.common_face().width, geometry.gears.contact_ratio(),
                                             scene.stage.helix_angle,
                                             scene.pinion_wheel.single_stiffness.value_or(steel_single_stiffness)});
 }
@@ -72,7 +72,7 @@ StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& ge
   if (const auto why = no_closed_form(scene, geometry); !why.empty()) throw InputError("no closed form: " + why);
   fem::LoadedMeshProblem problem{.pair = geometry.gears,
                                  .materials = {material_of(scene, scene.pinion), material_of(scene, scene.wheel)},
-                                 .face_width = scene.stage.face_width,
+                                 .face_width = geometry.gears.common_face().width,
                                  .planet_bore_radius = *scene.pinion.bore_diameter / 2,
                                  .wheel_support_radius = *scene.wheel.bore_diameter / 2,
                                  .phases = 64,

@@ -8,11 +8,11 @@
 #include "app/model/scene_warnings.h"
 #include "app/plan/plan.h"
 #include "app/results/content_id.h"
+#include "app/scene/example_scenes.h"
 #include "app/systems/helical_pair/pair_lumped_model.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_scene.h"
 #include "app/systems/shared/mesh_names.h"
-#include "example_scenes.h"
 
 namespace annulus::app {
 
@@ -78,6 +78,8 @@ class PairSystem final : public GearSystem {
     const auto geometry = make_pair_geometry(scene());
     std::vector<Warning> list;
     warn_of_clearance(list, geometry.gears, {"pinion", "wheel"}, "");
+    warn_of_undercut(list, geometry.pinion(), "pinion");
+    warn_of_undercut(list, geometry.wheel(), "wheel");
     if (scene().dynamics)
       warn_of_backlash(list, scene().pinion_wheel.half_backlash.value_or(scene().dynamics->half_backlash),
                        geometry.gears, "");
@@ -134,7 +136,7 @@ const std::vector<FigureSpec>& all_pair_figures() {
 
 SystemKind helical_pair_kind() {
   return {{"helical_pair", pair_tables, check_pair_scene, [] { return figure_keys(dynamics::pair_figures()); },
-           helical_pair_example},
+           example_scene("helical_pair").c_str()},
           all_pair_figures,
           dynamics::pair_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PairSystem>(scene); }};

@@ -25,6 +25,7 @@ Table pair_gear_table(const char* path, const char* meaning, PairGearInput Scene
   declare_teeth(gear, Flanks::external, "other gear");
   declare_mass(gear);
   declare_inertia(gear).absent("½ m r² of a solid disc, r: reference circle");
+  declare_own_face(gear);
   declare_own_material(gear);
   declare_flanks(gear, Flanks::external);
   declare_bore(gear, is("mesh.pinion_wheel.stiffness", {"computed", "closed_form"}));

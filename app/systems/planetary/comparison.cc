@@ -9,6 +9,7 @@
 
 #include "app/model/gear_system.h"
 #include "app/report/plot/plots.h"
+#include "app/systems/planetary/stage_supports.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -218,9 +219,7 @@ PathStiffness path_stiffness(const RunResult& result, std::size_t ring) {
   const auto& set = result.geometry.rings.at(ring).set;
   const double sun = 1 / result.sun_mesh.mean_stiffness().value;
   const double mesh = 1 / result.rings.at(ring).mesh.mean_stiffness().value;
-  const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
-  const double lever = std::pow(std::cos(as) + std::cos(ar), 2) + std::pow(std::sin(as) - std::sin(ar), 2);
-  const double bearing = std::isfinite(result.scene.supports.planet) ? lever / result.scene.supports.planet : 0;
+  const double bearing = bearing_compliance(result.scene, set);
   const double compliance = sun + mesh + bearing;
   return {1 / compliance, mesh / compliance, sun / compliance, bearing / compliance};
 }

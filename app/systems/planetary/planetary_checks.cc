@@ -8,7 +8,6 @@
 #include <optional>
 #include <set>
 
-#include "app/model/stiff_supports.h"
 #include "app/plan/gear_geometry.h"
 #include "app/results/result_folder.h"
 #include "app/scene/key_checks.h"
@@ -18,6 +17,7 @@
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/ring_structures.h"
+#include "app/systems/planetary/stage_supports.h"
 #include "app/systems/shared/profile_shifts.h"
 #include "core/errors.h"
 #include "core/units.h"
@@ -33,6 +33,7 @@ class PlanetaryChecker : KeyChecks {
   void run() {
     planet_angles();
     errors();
+    bearings();
     profile_shifts();
     ring_names();
     held_supports();
@@ -83,6 +84,12 @@ class PlanetaryChecker : KeyChecks {
     list("errors.planet_pin_position_error_phase_deg", e.planet_pin_position_phase);
   }
 
+  void bearings() {
+    for (const auto& [key, values] : {std::pair{"supports.planet_radial_N_per_m", &scene_.supports.planet_radial},
+                                      {"supports.planet_tangential_N_per_m", &scene_.supports.planet_tangential}})
+      if (given(key)) list(key, *values);
+  }
+
   void list(const std::string& key, std::vector<double>& values) {
     if (!usable("stage.planets") || (given(key) && !usable(key))) return;
     const auto planets = static_cast<std::size_t>(scene_.stage.planets);
@@ -103,11 +110,6 @@ class PlanetaryChecker : KeyChecks {
         problem("model",
                 fmt::format("cannot represent the ring-planet mesh of '{}': the resolved model does not cover rings "
                             "on pins, bolts or splines; use \"automatic\"",
-                            ring.name));
-      if (helical)
-        problem("stage.helix_angle_deg",
-                fmt::format("is not modelled for the ring '{}' on pins, bolts or splines: they do not carry the axial "
-                            "force",
                             ring.name));
     }
   }
@@ -171,8 +173,9 @@ class PlanetaryChecker : KeyChecks {
   void tolerances() {
     if (!scene_.tolerances) return;
     const auto& t = *scene_.tolerances;
-    const bool any = t.accuracy_class || t.sun_runout.value_or(0) > 0 || t.planet_runout.value_or(0) > 0 ||
-                     t.ring_runout.value_or(0) > 0 || t.planet_pin_position.value_or(0) > 0;
+    const bool any = t.accuracy_class || t.sun_class || t.planet_class || t.ring_class ||
+                     t.sun_runout.value_or(0) > 0 || t.planet_runout.value_or(0) > 0 || t.ring_runout.value_or(0) > 0 ||
+                     t.planet_pin_position.value_or(0) > 0;
     const std::string first = "tolerances.assemblies";
     if (!any)
       problem(first,

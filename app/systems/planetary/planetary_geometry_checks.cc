@@ -5,10 +5,10 @@
 #include <numbers>
 #include <tuple>
 
-#include "app/model/stiff_supports.h"
 #include "app/scene/model_limits.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/ring_structures.h"
+#include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/tolerance_sharing.h"
 #include "core/errors.h"
 #include "core/units.h"
@@ -62,6 +62,9 @@ void check_planetary_bearings(const Scene& scene, const GearGeometry& geometry) 
   const auto& s = scene.supports;
   const double mesh = geometry.operating_point.mean_mesh_force;
   check_bearing(scene, "supports.planet_N_per_m", s.planet, 2 * mesh);
+  for (const auto& [key, bearings] : {std::pair{"supports.planet_radial_N_per_m", &s.planet_radial},
+                                      {"supports.planet_tangential_N_per_m", &s.planet_tangential}})
+    for (const double bearing : *bearings) check_bearing(scene, key, bearing, 2 * mesh);
   const double across = mesh * least_bearing_load(geometry.rings.front().set);
   check_bearing(scene, "supports.sun_N_per_m", s.sun, across);
   check_bearing(scene, "supports.ring_N_per_m", s.ring, across);

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/model/stiff_supports.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/ring_structures.h"
+#include "app/systems/planetary/stage_supports.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -89,7 +92,14 @@ std::vector<DofPlan> dofs(const Scene& scene) {
   add("carrier x, y", "support", &SupportInput::carrier);
   add("carrier u", "torsional support", &SupportInput::carrier_torsional);
   const std::string each = fmt::format("planet 1 ... {}", scene.stage.planets);
-  add(each + " x, y", "bearing", &SupportInput::planet);
+  if (given.planet_radial.empty() && given.planet_tangential.empty())
+    add(each + " x, y", "bearing", &SupportInput::planet);
+  else
+    for (const auto& [coordinate, direction] :
+         {std::pair{"x", &SupportInput::planet_radial}, {"y", &SupportInput::planet_tangential}})
+      for (std::size_t n = 0; n < static_cast<std::size_t>(scene.stage.planets); ++n)
+        list.push_back(supported_dof(fmt::format("planet {} {}", n + 1, coordinate), "bearing",
+                                     given.planet_bearing(direction, n), effective.planet_bearing(direction, n)));
   list.push_back({each + " u", true, "each planet turns on its bearing"});
   return list;
 }
@@ -101,6 +111,19 @@ void add_single_pin(std::vector<std::string>& list, const RingInput& ring) {
       fmt::format("Ring '{}' has a single {}, which cannot hold it in equilibrium. Its rim rests in the bore of the "
                   "housing with a radial play of {} µm (housing_clearance_um).",
                   ring.name, structure.words().support, to_text(*ring.housing_clearance / units::um)));
+}
+
+/// Pins, bolts and splines along the axis carry no axial force.
+void add_axial_force(std::vector<std::string>& list, const Scene& scene, const GearGeometry& geometry,
+                     const RingInput& ring) {
+  const auto structure = ring_structure(ring);
+  if (scene.stage.helix_angle == 0 || !fem::on_single_supports(structure)) return;
+  const auto& gear = geometry.rings.front().set.ring();
+  const double of_mesh = geometry.operating_point.mean_mesh_force * std::tan(std::abs(gear.base_helix_angle()));
+  list.push_back(fmt::format(
+      "Each planet presses on ring '{}' with {} kN along the axis. The end face of the ring on that side is taken to "
+      "carry this and to keep it from tilting; its {} carry none of it.",
+      ring.name, to_text(of_mesh / 1e3, 3), structure.words().supports));
 }
 
 std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometry, bool computed,
@@ -120,7 +143,10 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
         misaligned ? "Eccentricities and position errors enter the dynamics; only the misalignments enter the contact "
                      "solution."
                    : "The planet errors of the scene enter the dynamics; the contact solution is without errors.");
-    for (const auto& ring : scene.rings) add_single_pin(list, ring);
+    for (const auto& ring : scene.rings) {
+      add_single_pin(list, ring);
+      add_axial_force(list, scene, geometry, ring);
+    }
   }
   if (!scene.dynamics) {
     list.emplace_back("No [dynamics]: meshes, transmission error and stiffness only.");

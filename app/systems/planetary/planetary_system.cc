@@ -8,6 +8,7 @@
 
 #include "app/model/cost_actual.h"
 #include "app/model/mesh_figures.h"
+#include "app/scene/example_scenes.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/planetary_run.h"
@@ -17,7 +18,6 @@
 #include "app/systems/planetary/stage_warnings.h"
 #include "app/systems/shared/mesh_names.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
-#include "example_scenes.h"
 
 namespace annulus::app {
 
@@ -149,7 +149,7 @@ const std::vector<FigureSpec>& all_planetary_figures() {
 
 SystemKind planetary_kind() {
   return {{"planetary", planetary_tables, check_planetary_scene,
-           [] { return figure_keys(dynamics::planetary_figures()); }, planetary_example},
+           [] { return figure_keys(dynamics::planetary_figures()); }, example_scene("ring_types").c_str()},
           all_planetary_figures,
           dynamics::planetary_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PlanetarySystem>(scene); }};

@@ -81,6 +81,7 @@ Table planetary_hub_gear_table(const char* path, const char* meaning, HubGearInp
   declare_teeth(gear, Flanks::external, mate);
   declare_mass(gear);
   declare_inertia(gear).required_if(given("[dynamics]"));
+  declare_own_face(gear);
   declare_own_material(gear);
   declare_flanks(gear, Flanks::external);
   declare_bore(gear, computed);
@@ -171,6 +172,15 @@ Table supports_table() {
   bearing("carrier_N_per_m", &SupportInput::carrier, "Support of the carrier's axis in any direction.");
   bearing("planet_N_per_m", &SupportInput::planet, "Bearing of each planet on the carrier, radial and tangential.")
       .above(0, 1e15);
+  for (const auto& [direction, member] :
+       {std::pair{"radial", &SupportInput::planet_radial}, {"tangential", &SupportInput::planet_tangential}})
+    supports
+        .key(fmt::format("planet_{}_N_per_m", direction), member,
+             fmt::format("{} stiffness of each planet's bearing and pin, one value per planet; inf: rigid.",
+                         direction == std::string("radial") ? "Radial" : "Tangential"))
+        .above(0, 1e15)
+        .infinite()
+        .absent("planet_N_per_m");
   const auto torsional = [&](const char* name, std::optional<double> SupportInput::*member, const char* meaning) {
     supports.key(name, member, meaning)
         .from(0, 1e15)
@@ -201,7 +211,15 @@ Table tolerances_table() {
            "Flank tolerance class of ISO 1328-1 of sun, planets and ring. Their eccentricities reach up to half the "
            "runout tolerance of the class.")
       .from(geometry::best_flank_class, geometry::worst_flank_class)
-      .absent("no eccentricities but those of the runout keys");
+      .absent("no eccentricities but those of the runout keys and of gears with a class of their own");
+  for (const auto& [name, member] : {std::pair{"sun", &ToleranceInput::sun_class},
+                                     {"planet", &ToleranceInput::planet_class},
+                                     {"ring", &ToleranceInput::ring_class}})
+    tolerances
+        .key(std::string(name) + "_accuracy_class", member,
+             std::string("Flank tolerance class of the ") + name + ", where it is not that of the others.")
+        .from(geometry::best_flank_class, geometry::worst_flank_class)
+        .absent("accuracy_class");
   for (const auto& [name, member] : {std::pair{"sun", &ToleranceInput::sun_runout},
                                      {"planet", &ToleranceInput::planet_runout},
                                      {"ring", &ToleranceInput::ring_runout}})
@@ -209,7 +227,7 @@ Table tolerances_table() {
         .key(std::string(name) + "_runout_um", member,
              std::string("Runout tolerance of the ") + name + " on its bearing; the eccentricity reaches half of it.")
         .from(0, 1e4)
-        .absent("the runout tolerance of accuracy_class, or no eccentricity");
+        .absent("the runout tolerance of the accuracy class, or no eccentricity");
   tolerances
       .key("planet_pin_position_um", &ToleranceInput::planet_pin_position,
            "Position tolerance of the planet pins: the diameter of the zone in which each axis lies (ISO 1101).")

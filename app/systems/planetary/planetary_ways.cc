@@ -24,7 +24,10 @@ const std::vector<RigidChange<Stage>>& rigid_changes() {
        }},
       {"carrier held in place", [](Stage& s) { return std::vector{&s.carrier.support}; }},
       {"planet bearings rigid", [](Stage& s) {
-         return std::vector{&s.planet.bearing_radial, &s.planet.bearing_tangential};
+         std::vector<double*> stiffness;
+         for (auto& bearing : s.planet_bearings)
+           for (double* one : {&bearing.radial, &bearing.tangential}) stiffness.push_back(one);
+         return stiffness;
        }}};
   return list;
 }

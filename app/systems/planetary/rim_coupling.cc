@@ -8,6 +8,7 @@
 
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
+#include "app/systems/planetary/stage_supports.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/csv.h"
 #include "core/errors.h"
@@ -38,10 +39,7 @@ double highest_frequency(const GearGeometry& geometry) {
 
 /// Mesh and planet bearing in series; 1/K_path of the stage without its sun mesh, hence rather too small.
 double path_compliance(const Scene& scene, const GearGeometry& geometry, double mesh_compliance) {
-  const auto& set = geometry.rings.front().set;
-  const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
-  const double arm = std::pow(std::cos(as) + std::cos(ar), 2) + std::pow(std::sin(as) - std::sin(ar), 2);
-  return mesh_compliance + arm / scene.supports.planet;
+  return mesh_compliance + bearing_compliance(scene, geometry.rings.front().set);
 }
 
 /// Ring teeth by which each planet stands ahead of the first.

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "app/plan/gear_geometry.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/model_limits.h"
 #include "app/systems/planetary/ring_pins.h"
@@ -109,7 +110,7 @@ class RingChecker : KeyChecks {
 
  private:
   void check_sleeve(RingInput& ring) {
-    not_wider_than_face("ring.hoop_width_mm", ring.name, ring.hoop_width);
+    not_wider_than_face("ring.hoop_width_mm", ring, ring.hoop_width);
     const std::string key = "ring.sleeve_thickness_mm";
     if (given(key, ring.name) || !usable("ring.free_length_mm", ring.name)) return;
     if (ring.free_length.value_or(0) > 0)
@@ -122,7 +123,7 @@ class RingChecker : KeyChecks {
   }
 
   void check_flange(const RingInput& ring) {
-    not_wider_than_face("ring.flange_width_mm", ring.name, ring.flange_width);
+    not_wider_than_face("ring.flange_width_mm", ring, ring.flange_width);
     if (const auto radius = known_outside(scene_, ring);
         radius && ring.flange_diameter && *ring.flange_diameter <= 2 * *radius) {
       problem(
@@ -169,11 +170,10 @@ class RingChecker : KeyChecks {
                           to_text(beside / units::mm, 4), mm(2 * beside - bolt)));
   }
 
-  void not_wider_than_face(const std::string& key, const std::string& ring, const std::optional<double>& width) {
-    if (!width || !usable("stage.face_width_mm") || *width <= scene_.stage.face_width) return;
-    problem(
-        key, ring,
-        fmt::format("must not exceed the face width, value <= {} mm", to_text(scene_.stage.face_width / units::mm)));
+  void not_wider_than_face(const std::string& key, const RingInput& ring, const std::optional<double>& width) {
+    const double face = face_width_of(scene_, ring);
+    if (!width || !usable("stage.face_width_mm") || *width <= face) return;
+    problem(key, ring.name, fmt::format("must not exceed the face width, value <= {} mm", to_text(face / units::mm)));
   }
 };
 

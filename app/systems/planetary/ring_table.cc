@@ -12,6 +12,7 @@ void declare_ring_body(Declarations<RingInput>& ring) {
   declare_teeth(ring, Flanks::internal, "planet");
   declare_mass(ring);
   declare_inertia(ring).required_if(given("[dynamics]"));
+  declare_own_face(ring);
   declare_own_material(ring);
   declare_flanks(ring, Flanks::internal);
   ring.key("outside_diameter_mm", &RingInput::outside_diameter, "Outside diameter.")

@@ -1,11 +1,11 @@
 #include <algorithm>
 
 #include "app/model/excitation.h"
-#include "app/model/stiff_supports.h"
 #include "app/plan/accuracy_choice.h"
 #include "app/results/cached_value.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_members.h"
+#include "app/systems/planetary/stage_supports.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -56,7 +56,9 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   stage.ring.torsional_support = *supports.ring_torsional;
   stage.carrier.torsional_support = *supports.carrier_torsional;
   stage.carrier.support = supports.carrier;
-  stage.planet.bearing_radial = stage.planet.bearing_tangential = supports.planet;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(scene.stage.planets); ++n)
+    stage.planet_bearings.push_back({supports.planet_bearing(&SupportInput::planet_radial, n),
+                                     supports.planet_bearing(&SupportInput::planet_tangential, n)});
   if (ring_mesh.coupling)
     stage.ring_coupling = taken_coupling(*ring_mesh.coupling, coupling_choice(scene, *ring_mesh.coupling).taken);
   stage.sun_half_backlash = scene.sun_planet.half_backlash.value_or(scene.dynamics->half_backlash);

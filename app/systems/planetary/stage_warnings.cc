@@ -40,6 +40,8 @@ std::vector<std::string> rigid_unasked(const Scene& scene) {
   std::vector<std::string> keys;
   for (const auto* key : {"supports.planet_N_per_m", "supports.carrier_N_per_m", "supports.ring_N_per_m"})
     if (by_default(scene, key)) keys.emplace_back(key);
+  if (!scene.supports.planet_radial.empty() && !scene.supports.planet_tangential.empty())
+    std::erase(keys, "supports.planet_N_per_m");
   return keys;
 }
 
@@ -58,6 +60,8 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
                     "deviations within the tolerances are drawn from a normal distribution, because the scene does not "
                     "mention tolerances.distribution. With \"uniform\" they are larger"});
   warn_of_clearance(list, geometry.sun_mesh(), {"planet", "sun"}, "sun mesh");
+  warn_of_undercut(list, geometry.sun_mesh().wheel(), "sun");
+  warn_of_undercut(list, geometry.sun_mesh().pinion(), "planet");
   for (const auto& ring : geometry.rings)
     warn_of_clearance(list, ring.set.ring_mesh(), {"planet", "ring"}, "ring mesh of '" + ring.name + "'");
   if (scene.dynamics) {

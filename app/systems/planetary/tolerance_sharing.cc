@@ -30,18 +30,20 @@ using dynamics::SharingQuantiles;
 constexpr const char* cached_sharing = "assemblies";
 
 double runout(const std::string& name, const geometry::Gear& gear, const std::optional<double>& given,
-              const std::optional<int>& flank_class) {
+              const std::optional<int>& own_class, const std::optional<int>& common_class) {
   if (given) return *given;
+  const auto& flank_class = own_class ? own_class : common_class;
   if (!flank_class) return 0;
-  return geometry_of(
-      fmt::format("tolerances.accuracy_class = {}: {}; give tolerances.{}_runout_um instead", *flank_class, name, name),
-      [&] {
-        return geometry::runout_tolerance({.teeth = gear.teeth(),
-                                           .module = gear.transverse_module() * std::cos(gear.helix_angle()),
-                                           .reference_diameter = 2 * gear.reference_radius(),
-                                           .helix_angle = gear.helix_angle()},
-                                          *flank_class);
-      });
+  return geometry_of(fmt::format("tolerances.{}accuracy_class = {}: {}; give tolerances.{}_runout_um instead",
+                                 own_class ? name + "_" : "", *flank_class, name, name),
+                     [&] {
+                       return geometry::runout_tolerance(
+                           {.teeth = gear.teeth(),
+                            .module = gear.transverse_module() * std::cos(gear.helix_angle()),
+                            .reference_diameter = 2 * gear.reference_radius(),
+                            .helix_angle = gear.helix_angle()},
+                           *flank_class);
+                     });
 }
 
 Json quantiles_json(const SharingQuantiles& quantiles) {
@@ -112,9 +114,9 @@ dynamics::StageTolerances stage_tolerances(const Scene& scene, const GearGeometr
   const auto& set = geometry.rings.at(ring).set;
   dynamics::StageTolerances zones;
   zones.planet_pin_position = t.planet_pin_position.value_or(0) / 2;
-  zones.sun_eccentricity = runout("sun", set.sun(), t.sun_runout, t.accuracy_class) / 2;
-  zones.planet_eccentricity = runout("planet", set.planet(), t.planet_runout, t.accuracy_class) / 2;
-  zones.ring_eccentricity = runout("ring", set.ring(), t.ring_runout, t.accuracy_class) / 2;
+  zones.sun_eccentricity = runout("sun", set.sun(), t.sun_runout, t.sun_class, t.accuracy_class) / 2;
+  zones.planet_eccentricity = runout("planet", set.planet(), t.planet_runout, t.planet_class, t.accuracy_class) / 2;
+  zones.ring_eccentricity = runout("ring", set.ring(), t.ring_runout, t.ring_class, t.accuracy_class) / 2;
   zones.within = t.distribution == ToleranceLaw::normal ? dynamics::WithinZone::normal : dynamics::WithinZone::uniform;
   return zones;
 }
@@ -155,8 +157,11 @@ double tolerance_seconds(const Scene& scene) {
   // Equilibria: those of every torque, then each tolerance alone and left out at one torque. The time of one is that of
   // the demo with five planets; others by the number of candidates and of unknowns.
   const double planets = scene.stage.planets, torques = static_cast<double>(t.torque_shares.size()) + 1;
-  const int tolerances = (t.planet_pin_position.value_or(0) > 0 ? 1 : 0) + (t.accuracy_class || t.sun_runout ? 1 : 0) +
-                         (t.accuracy_class || t.planet_runout ? 1 : 0) + (t.accuracy_class || t.ring_runout ? 1 : 0);
+  const auto drawn = [&](const std::optional<int>& own_class, const std::optional<double>& runout) {
+    return t.accuracy_class || own_class || runout ? 1 : 0;
+  };
+  const int tolerances = (t.planet_pin_position.value_or(0) > 0 ? 1 : 0) + drawn(t.sun_class, t.sun_runout) +
+                         drawn(t.planet_class, t.planet_runout) + drawn(t.ring_class, t.ring_runout);
   constexpr double per_planet_squared = 9e-5;
   return t.assemblies * (torques + 2 * tolerances) * per_planet_squared * planets * planets;
 }

@@ -4,11 +4,11 @@
 
 #include "app/model/mesh_figures.h"
 #include "app/plan/plan.h"
+#include "app/scene/example_scenes.h"
 #include "app/systems/shared/mesh_names.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"
-#include "example_scenes.h"
 
 namespace annulus::app {
 
@@ -118,7 +118,7 @@ const std::vector<FigureSpec>& all_two_k_v_figures() {
 
 SystemKind two_k_v_kind() {
   return {{"two_k_v", two_k_v_tables, check_two_k_v_scene, [] { return figure_keys(dynamics::two_k_v_figures()); },
-           two_k_v_example},
+           example_scene("arc_tooth_2kv").c_str()},
           all_two_k_v_figures,
           dynamics::two_k_v_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<TwoKVSystem>(scene); }};

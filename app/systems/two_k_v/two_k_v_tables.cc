@@ -32,6 +32,7 @@ Table turning_gear_table(const char* path, const char* meaning, HubGearInput Sce
   declare_teeth(gear, Flanks::external);
   if (mass == Mass::own) declare_mass(gear);
   declare_inertia(gear).required_if(with_dynamics());
+  declare_own_face(gear);
   declare_own_material(gear);
   declare_flanks(gear, Flanks::external);
   declare_bore(gear, computed_or_compared("mesh.sun_planet"));

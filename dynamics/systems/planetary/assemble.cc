@@ -38,23 +38,25 @@ PlaneBody add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
   return c;
 }
 
-/// Planet n at phi: its own DOFs where the bearing gives way, else the carrier's motion at its bearing.
-PlaneBody add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const PlaneBody& carrier, double phi,
-                     const std::string& name) {
+/// Planet n: its own DOFs where the bearing gives way, else the carrier's motion at its bearing.
+PlaneBody add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const PlaneBody& carrier, int n) {
   const auto& body = stage.planet;
+  const auto name = "planet" + std::to_string(n + 1);
+  const double phi = stage.planet_angles[n];
+  const PlanetBearing bearing = stage.planet_bearing(n);
   const LinearForm radial = std::cos(phi) * carrier.x + std::sin(phi) * carrier.y;
   const LinearForm translation = -std::sin(phi) * carrier.x + std::cos(phi) * carrier.y;
   const LinearForm tangential = translation + carrier.u;
   PlaneBody p;
-  const auto add_translation = [&](double bearing, const LinearForm& seat, const char* dof, const char* direction) {
-    if (bearing == rigid) return seat;
+  const auto add_translation = [&](double stiffness, const LinearForm& seat, const char* dof, const char* direction) {
+    if (stiffness == rigid) return seat;
     LinearForm own = builder.add_dof(name + dof);
-    builder.add_spring(own + (-1.0) * seat, bearing,  // [HuFangXuShen2021, eqs. (20), (21)]
-                       critical_share(stage.support_damping_ratio, bearing, body.mass), name + direction);
+    builder.add_spring(own + (-1.0) * seat, stiffness,  // [HuFangXuShen2021, eqs. (20), (21)]
+                       critical_share(stage.support_damping_ratio, stiffness, body.mass), name + direction);
     return own;
   };
-  p.x = add_translation(body.bearing_radial, radial, "_x", "_bearing_radial");
-  p.y = add_translation(body.bearing_tangential, tangential, "_y", "_bearing_tangential");
+  p.x = add_translation(bearing.radial, radial, "_x", "_bearing_radial");
+  p.y = add_translation(bearing.tangential, tangential, "_y", "_bearing_tangential");
   p.u = builder.add_dof(name + "_u");
   builder.add_mass(p.u, body.inertia / (body.radius * body.radius));
 
@@ -168,8 +170,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   std::vector<MeshElement> ring_meshes;
   std::vector<PlaneBody> planets;
   planets.reserve(stage.planet_angles.size());
-  for (int n = 0; n < stage.planets(); ++n)
-    planets.push_back(add_planet(builder, stage, carrier, stage.planet_angles[n], "planet" + std::to_string(n + 1)));
+  for (int n = 0; n < stage.planets(); ++n) planets.push_back(add_planet(builder, stage, carrier, n));
   const auto ring_modes = add_ring_modes(builder, stage, ring);
   const LinearForm none;
   for (int n = 0; n < stage.planets(); ++n) {

@@ -136,6 +136,11 @@ std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& s, int n) {
   return list;
 }
 
+PlanetBearing PlanetaryStage::planet_bearing(int n) const {
+  if (planet_bearings.empty()) return {};
+  return planet_bearings.size() == 1 ? planet_bearings.front() : planet_bearings[static_cast<std::size_t>(n)];
+}
+
 double PlanetaryStage::mesh_rate() const { return ring_teeth * rolling_speed(*this) / (2 * std::numbers::pi); }
 
 double PlanetaryStage::mesh_frequency() const { return std::abs(mesh_rate()); }
@@ -168,8 +173,10 @@ void PlanetaryStage::check() const {
   check_positive(planet.mass, "planet mass");
   check_positive(planet.inertia, "planet inertia");
   check_positive(planet.radius, "planet radius");
-  check_support(planet.bearing_radial, "planet bearing stiffness (radial)", ZeroStiffness::refused);
-  check_support(planet.bearing_tangential, "planet bearing stiffness (tangential)", ZeroStiffness::refused);
+  for (const auto& bearing : planet_bearings) {
+    check_support(bearing.radial, "planet bearing stiffness (radial)", ZeroStiffness::refused);
+    check_support(bearing.tangential, "planet bearing stiffness (tangential)", ZeroStiffness::refused);
+  }
   if (planets() < 1) throw InputError(fmt::format("a planetary stage needs at least one planet, not {}", planets()));
   for (const double angle : planet_angles)
     if (!std::isfinite(angle)) throw InputError(fmt::format("planet angle {} rad must be finite", angle));
@@ -177,6 +184,7 @@ void PlanetaryStage::check() const {
     if (size != 0 && size != planet_angles.size())
       throw InputError(fmt::format("{} has {} values for {} planets", name, size, planets()));
   };
+  if (planet_bearings.size() != 1) per_planet(planet_bearings.size(), "planet bearings");
   per_planet(planet_errors.size(), "planet errors");
   per_planet(sun_phase_lag.size(), "sun mesh phase");
   per_planet(ring_phase_lag.size(), "ring mesh phase");

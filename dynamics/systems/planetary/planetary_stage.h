@@ -53,10 +53,12 @@ struct PlanetBody {
   double mass = 0;     ///< kg
   double inertia = 0;  ///< kg m^2
   double radius = 0;   ///< m, base radius
-  /// Bearing stiffness planet - carrier, N/m. `rigid` (both) drops x and y: the planet then moves with the carrier, to
-  /// which its mass is added.
-  double bearing_radial = rigid;
-  double bearing_tangential = rigid;
+};
+
+/// Stiffness between a planet and the carrier, N/m, bearing and pin. `rigid` drops the planet's DOF: in that direction
+/// it then moves with the carrier, to which its mass is added.
+struct PlanetBearing {
+  double radial = rigid, tangential = rigid;
 };
 
 /// A planetary stage as lumped masses; SI. Any of sun, carrier and ring may be held or turn. After [HuFangXuShen2021,
@@ -71,10 +73,11 @@ struct PlanetaryStage {
   CentralBody sun, ring, carrier;
   PlanetBody planet;
 
-  std::vector<double> planet_angles;      ///< phi_n, rad, one per planet, counter-clockwise
-  std::vector<BodyErrors> planet_errors;  ///< empty: none; otherwise one per planet
-  double sun_working_angle = 0;           ///< a_s, rad
-  double ring_working_angle = 0;          ///< a_r, rad
+  std::vector<double> planet_angles;           ///< phi_n, rad, one per planet, counter-clockwise
+  std::vector<PlanetBearing> planet_bearings;  ///< empty: rigid; one: that of every planet; or one per planet
+  std::vector<BodyErrors> planet_errors;       ///< empty: none; otherwise one per planet
+  double sun_working_angle = 0;                ///< a_s, rad
+  double ring_working_angle = 0;               ///< a_r, rad
   int sun_teeth = 0, planet_teeth = 0, ring_teeth = 0;
 
   MeshExcitation sun_mesh, ring_mesh;
@@ -116,6 +119,7 @@ struct PlanetaryStage {
 
   [[nodiscard]] const CentralBody& body(geometry::StageMember member) const { return this->*body_of(member); }
   [[nodiscard]] CentralBody& body(geometry::StageMember member) { return this->*body_of(member); }
+  [[nodiscard]] PlanetBearing planet_bearing(int n) const;
   [[nodiscard]] int planets() const { return static_cast<int>(planet_angles.size()); }
   [[nodiscard]] double mesh_rate() const;        ///< Hz: z_r (Omega_c - Omega_r) / 2 pi
   [[nodiscard]] double mesh_frequency() const;   ///< Hz: |mesh_rate|

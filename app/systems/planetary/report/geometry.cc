@@ -68,7 +68,7 @@ Section drawings_section(const RunResult& result) {
     const AxialSection axial{
         .title = ring.name + ": axial section of the ring",
         .label = fmt::format("{}: axial section of the ring to scale, {}, face width {} mm, outside diameter {} mm",
-                             ring.name, ring_structure(input).words().description, mm_text(scene.stage.face_width),
+                             ring.name, ring_structure(input).words().description, mm_text(face_width_of(scene, input)),
                              mm_text(2 * ring.outside_radius)),
         .ring = ring.set.ring(),
         .outside_radius = ring.outside_radius,

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "app/scene/scene.h"
+#include "geometry/planetary.h"
+#include "geometry/power_flow.h"
+
+/// Supports and planet bearings of a stage as its lumped model takes them.
+namespace annulus::app {
+
+/// N/m in u: rigid for the member that is held and none for the others, where the scene does not say.
+[[nodiscard]] double torsional_support(const Scene& scene, geometry::StageMember member);
+
+/// The supports by the rule of stiff_supports.h, the torsional ones included. `sun_mesh`, `ring_mesh`: mean stiffness
+/// of one mesh, N/m.
+[[nodiscard]] SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring_mesh);
+
+/// What the bearing adds to the compliance of a planet's path from sun to ring with all centres held, m/N, the mean of
+/// the planets: (cos a_s + cos a_r)^2 over the tangential and (sin a_s - sin a_r)^2 over the radial stiffness.
+[[nodiscard]] double bearing_compliance(const Scene& scene, const geometry::PlanetarySet& set);
+
+}  // namespace annulus::app
