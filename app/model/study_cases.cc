@@ -58,6 +58,16 @@ std::vector<std::string> unknown_phases(const Scene& scene, bool unstated_only) 
   return paths;
 }
 
+/// The key itself, or one path for each value of its list.
+std::vector<std::string> paths_of(const Scene& scene, const Parameter& p) {
+  if (p.kind != Parameter::Kind::reals) return {p.key()};
+  const Input* input = scene.find(p.key());
+  const auto* list = input ? std::get_if<std::vector<double>>(&input->value) : nullptr;
+  std::vector<std::string> paths;
+  for (std::size_t n = 1; list && n <= list->size(); ++n) paths.push_back(fmt::format("{}[{}]", p.key(), n));
+  return paths;
+}
+
 dynamics::Distribution distribution_of(const RandomInput& r) {
   using Kind = dynamics::Distribution::Kind;
   dynamics::Distribution d;
@@ -167,9 +177,11 @@ std::vector<std::string> sensitivity_inputs(const Scene& scene) {
     for (const auto& table : schema()) {
       for (const auto& p : table.parameters) {
         if (!applies(p) || !table.applies_to(scene.stage.kind) || !p.applies_to(scene.stage.kind)) continue;
-        const double value = input_value(scene, find_input(scene, p.key())).value_or(0);
-        const bool listed = std::find(inputs.begin(), inputs.end(), p.key()) != inputs.end();
-        if (!listed && value != 0 && std::isfinite(value)) inputs.push_back(p.key());
+        for (const auto& path : paths_of(scene, p)) {
+          const double value = input_value(scene, find_input(scene, path)).value_or(0);
+          const bool listed = std::find(inputs.begin(), inputs.end(), path) != inputs.end();
+          if (!listed && value != 0 && std::isfinite(value)) inputs.push_back(path);
+        }
       }
     }
   }

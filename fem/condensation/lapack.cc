@@ -62,13 +62,14 @@ void invert_from_cholesky(Eigen::MatrixXcd& factor) {
   factor.triangularView<Eigen::StrictlyUpper>() = factor.adjoint();
 }
 
-Eigen::MatrixXd transpose_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+Eigen::MatrixXd transpose_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                                  const Eigen::Ref<const Eigen::MatrixXd>& b) {
   require(a.rows() == b.rows(), "transpose_product of unequal sizes");
   Eigen::MatrixXd c(a.cols(), b.cols());
   const int m = size(a.cols()), n = size(b.cols()), k = size(a.rows());
-  const int lda = leading(k), ldc = leading(m);
+  const int lda = leading(size(a.outerStride())), ldb = leading(size(b.outerStride())), ldc = leading(m);
   const double one = 1, zero = 0;
-  if (c.size() > 0) dgemm_("T", "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &lda, &zero, c.data(), &ldc);
+  if (c.size() > 0) dgemm_("T", "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &ldb, &zero, c.data(), &ldc);
   return c;
 }
 

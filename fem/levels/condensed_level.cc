@@ -131,8 +131,10 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
     ContactForces forces;
     LoadedPosition position =
         system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load], cache, warm, &forces);
-    position.planet_stress = bodies.planet_stress->stresses(forces.planet, {}).largest;
-    position.wheel_stress = bodies.wheel_stress->stresses(forces.wheel, forces.supports).largest;
+    using Look = StressRecovery::Look;
+    const auto look = load == static_cast<int>(problem.loads.size() / 2) ? Look::around : Look::near;
+    position.planet_stress = bodies.planet_stress->stresses(forces.planet, {}, look).largest;
+    position.wheel_stress = bodies.wheel_stress->stresses(forces.wheel, forces.supports, look).largest;
     return position;
   };
   SolvedLevel result;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/errors.h"
+#include "fem/condensation/lapack.h"
 
 namespace annulus::fem {
 namespace {
@@ -51,14 +54,12 @@ StressRecovery::StressRecovery(const GearBody& body, double face_width, double p
 }
 
 std::map<int, Eigen::VectorXd> StressRecovery::by_sector(const std::vector<ToothForces>& teeth,
-                                                         const Eigen::VectorXd& supports) const {
+                                                         const Eigen::VectorXd& supports, Look look) const {
   const auto& c = body_.compliance;
   const int ports = body_.flank_ports();
-  std::map<int, Eigen::MatrixXd> interface_loads;
+  std::map<int, Eigen::VectorXd> interface_loads;
   const auto add_load = [&](int interface, const Eigen::VectorXd& load) {
-    auto& sum =
-        interface_loads.try_emplace(number(interface), Eigen::MatrixXd::Zero(c.interface_size(), 1)).first->second;
-    sum += load;
+    interface_loads.try_emplace(interface, Eigen::VectorXd::Zero(c.interface_size())).first->second += load;
   };
   int first_tooth = teeth.front().tooth, last_tooth = first_tooth;
   for (const auto& t : teeth) {
@@ -67,28 +68,40 @@ std::map<int, Eigen::VectorXd> StressRecovery::by_sector(const std::vector<Tooth
     first_tooth = std::min(first_tooth, t.tooth);
     last_tooth = std::max(last_tooth, t.tooth);
   }
-  const bool all_around = body_.axial_stations() == 1 && c.max_interface_offset() == c.sectors() / 2;
-  const int reach = std::min(6, c.max_interface_offset() - 1);
+  const bool plane = body_.axial_stations() == 1;
+  const bool all_around = look == Look::around && plane && c.max_interface_offset() == c.sectors() / 2;
+  const int reach = std::min({look == Look::around ? 6 : 3, c.max_interface_offset() - 1, c.sectors() / 2 - 2});
   const int first = all_around ? 0 : last_tooth - reach, last = all_around ? body_.teeth - 1 : first_tooth + reach;
 
-  const auto interface_displacement = [&](int interface) {
-    Eigen::MatrixXd v = Eigen::MatrixXd::Zero(c.interface_size(), 1);
-    for (const auto& [loaded, load] : interface_loads) c.add_interface_displacement(interface - loaded, load, v);
-    if (supports_ != nullptr) v += supports_->at_interface(interface) * supports;
-    return v;
-  };
+  // Displacements of the interfaces first ... last + 1. All loads that are as many interfaces away are one product.
+  const int sectors = last - first + 1;
+  Eigen::MatrixXd displacement = Eigen::MatrixXd::Zero(c.interface_size(), sectors + 1);
+  for (int offset = first - last_tooth - 1; offset <= last + 1 - first_tooth; ++offset) {
+    std::vector<std::pair<int, const Eigen::VectorXd*>> loads;
+    for (const auto& [interface, load] : interface_loads)
+      if (interface + offset >= first && interface + offset <= last + 1) loads.emplace_back(interface, &load);
+    if (loads.empty()) continue;
+    const auto count = static_cast<Eigen::Index>(loads.size());
+    Eigen::MatrixXd forces(c.interface_size(), count), moved = Eigen::MatrixXd::Zero(c.interface_size(), count);
+    for (Eigen::Index i = 0; i < count; ++i) forces.col(i) = *loads[static_cast<std::size_t>(i)].second;
+    c.add_interface_displacement(offset, forces, moved);
+    for (Eigen::Index i = 0; i < count; ++i)
+      displacement.col(loads[static_cast<std::size_t>(i)].first + offset - first) += moved.col(i);
+  }
+  if (supports_ != nullptr)
+    for (int i = 0; i <= sectors; ++i) displacement.col(i) += supports_->at_interface(first + i) * supports;
+
+  const Eigen::MatrixXd stress =
+      lapack::transpose_product(c.low().middleCols(first_load_, loads_), displacement.leftCols(sectors)) +
+      lapack::transpose_product(c.high().middleCols(first_load_, loads_), displacement.rightCols(sectors));
   std::map<int, Eigen::VectorXd> result;
-  Eigen::MatrixXd at_low = interface_displacement(first);
   for (int sector = first; sector <= last; ++sector) {
-    Eigen::MatrixXd at_high = interface_displacement(sector + 1);
-    Eigen::VectorXd stress = c.low().middleCols(first_load_, loads_).transpose() * at_low +
-                             c.high().middleCols(first_load_, loads_).transpose() * at_high;
+    Eigen::VectorXd own = stress.col(sector - first);
     for (const auto& t : teeth)
       if (number(t.tooth) == number(sector))
-        stress += per_width_ * (c.within().block(first_load_, 0, loads_, ports) * t.ports);
-    if (supports_ != nullptr) stress += supports_->within_sector(sector, first_load_, loads_, supports);
-    result.emplace(sector, std::move(stress));
-    at_low = std::move(at_high);
+        own += per_width_ * (c.within().block(first_load_, 0, loads_, ports) * t.ports);
+    if (supports_ != nullptr) own += supports_->within_sector(sector, first_load_, loads_, supports);
+    result.emplace(sector, std::move(own));
   }
   return result;
 }
@@ -109,10 +122,10 @@ StressRecovery::Line StressRecovery::on_sector(const StressLine& line, const Eig
   return result;
 }
 
-StressRecovery::Result StressRecovery::stresses(const std::vector<ToothForces>& teeth,
-                                                const Eigen::VectorXd& supports) const {
+StressRecovery::Result StressRecovery::stresses(const std::vector<ToothForces>& teeth, const Eigen::VectorXd& supports,
+                                                Look look) const {
   require(!teeth.empty(), "stresses without forces");
-  const auto observed = by_sector(teeth, supports);
+  const auto observed = by_sector(teeth, supports, look);
   const bool closed = static_cast<int>(observed.size()) == body_.teeth;
   const auto after = [&](int sector) { return observed.find(closed ? number(sector + 1) : sector + 1); };
 

@@ -41,12 +41,14 @@ class StressRecovery {
     Line root;  ///< of the tooth space with the largest von Mises stress, counter-clockwise; abscissa: arc length, m
     Line rim;   ///< abscissa: polar angle in the body's frame, rad, ascending
   };
-  [[nodiscard]] Result stresses(const std::vector<ToothForces>& teeth, const Eigen::VectorXd& supports) const;
+  enum class Look { around, near };  ///< near: three teeth to either side of the forces, in any body
+  [[nodiscard]] Result stresses(const std::vector<ToothForces>& teeth, const Eigen::VectorXd& supports,
+                                Look look = Look::around) const;
 
  private:
   /// Stresses of all lines of the looked-at sectors, as numbered among the observed loads.
   [[nodiscard]] std::map<int, Eigen::VectorXd> by_sector(const std::vector<ToothForces>& teeth,
-                                                         const Eigen::VectorXd& supports) const;
+                                                         const Eigen::VectorXd& supports, Look look) const;
   /// Tangential and von Mises stress of the points of a line in one sector, [point][axial station].
   [[nodiscard]] Line on_sector(const StressLine& line, const Eigen::VectorXd& observed) const;
   [[nodiscard]] int number(int sector) const { return ((sector % body_.teeth) + body_.teeth) % body_.teeth; }

@@ -309,10 +309,8 @@ BOOST_AUTO_TEST_CASE(plane_models_are_refused_where_the_face_width_matters) {
   const auto resolved = problems_of(paper("accuracy = 0.01", "model = \"resolved\""));
   BOOST_TEST_REQUIRE(resolved.size() == 1U);
   BOOST_TEST(resolved.front().message.find("'pinned'") != std::string::npos, resolved.front().message);
-  // Helical teeth push the rings along their axis, and pins do not hold them there.
-  const auto helical = problems_of(paper("planets = 5", "planets = 5\nhelix_angle_deg = 12"));
-  BOOST_TEST_REQUIRE(helical.size() == 1U);
-  BOOST_TEST(helical.front().message.find("'pinned'") != std::string::npos, helical.front().message);
+  // Helical teeth push the rings along their axis, whatever holds them.
+  BOOST_TEST(problems_of(paper("planets = 5", "planets = 5\nhelix_angle_deg = 12")).empty());
   // The planet's lead touches the sun mesh and every ring mesh.
   const auto lead = test::replaced(paper("accuracy = 0.01", "model = \"closed_form\""), "bore_diameter_mm = 172",
                                    "bore_diameter_mm = 172\nlead_crowning_um = 5");

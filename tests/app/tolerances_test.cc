@@ -46,10 +46,10 @@ BOOST_AUTO_TEST_CASE(zones_follow_from_class_and_tolerances) {
   BOOST_TEST(zones.sun_eccentricity == 14.5 * units::um, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(zones.ring_eccentricity == 25 * units::um, boost::test_tools::tolerance(1e-12));
   BOOST_TEST((zones.within == dynamics::WithinZone::normal));
-  // A better sun, 28.5 / √2 -> 20 µm, and a worse ring; the planets have no class.
+  // A better sun, 28.5 / 2 -> 14 µm, and a worse ring; the planets have no class.
   const auto own =
       zones_of("[tolerances]\nsun_accuracy_class = 4\nring_accuracy_class = 7\nplanet_pin_position_um = 30\n");
-  BOOST_TEST(own.sun_eccentricity == 10 * units::um, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(own.sun_eccentricity == 7 * units::um, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(own.planet_eccentricity == 0);
   BOOST_TEST(own.ring_eccentricity > 2 * own.sun_eccentricity);
   const auto mixed = zones_of("[tolerances]\naccuracy_class = 6\nsun_accuracy_class = 4\n");

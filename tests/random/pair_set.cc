@@ -24,6 +24,7 @@ GearSet helical_pair_set(Draw& draw, Section section) {
   set.scales = {rack.module_mm, force / rack.mesh_stiffness() * 1e6, rack.mesh_stiffness(),
                 rack.mesh_stiffness() * base * base};
   auto& v = set.values;
+  v["stage.tip_shortening"] = std::string("none");  // the other shortens for a given centre distance
   for (const auto& [body, teeth] : {std::pair{"pinion", pinion}, {"wheel", wheel}}) {
     const std::string key = body;
     const double diameter = module * static_cast<double>(teeth);

@@ -92,6 +92,7 @@ void ring_values(Draw& draw, const Rack& rack, double root_mm, Section section, 
   v["ring.flange_diameter_mm"] = rounded(outside * draw.uniform(1.05, 1.3));
   v["ring.free_length_mm"] = rounded(rack.face_width_mm * draw.uniform(0, 0.6));
   v["ring.sleeve_thickness_mm"] = rounded(rim * draw.uniform(0.3, 1));
+  set.chances["ring.sleeve_thickness_mm"] = 1;
   v["ring.hoop_width_mm"] = rounded(rack.face_width_mm * draw.uniform(0.1, 0.3));
   v["ring.hoop_thickness_mm"] = rounded(rim * draw.uniform(0.3, 1));
   if (section != Section::solid) set.chances["ring.flange_width_mm"] = set.chances["ring.flange_diameter_mm"] = 0;
