@@ -21,9 +21,10 @@ void warn_of_assumptions(std::vector<Warning>& list, const Plan& plan) {
       keys.push_back(input.key);
   if (keys.empty()) return;
   list.push_back({"assumed_inputs", Severity::note,
-                  fmt::format("{} inputs are assumed; [assumed] states the reasons: {}. The results depend on them; "
+                  fmt::format("{} assumed; [assumed] states the reasons: {}. The results depend on them; "
                               "[sensitivity] shows how much",
-                              keys.size(), fmt::join(keys, ", "))});
+                              keys.size() == 1 ? "1 input is" : fmt::format("{} inputs are", keys.size()),
+                              fmt::join(keys, ", "))});
 }
 
 void warn_of_phases(std::vector<Warning>& list, const Scene& scene) {
