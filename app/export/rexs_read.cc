@@ -29,7 +29,7 @@ struct Component {
 };
 
 struct StageRelation {
-  int planetary = 0, stage = 0, first = 0, second = 0;
+  int stage = 0, first = 0, second = 0;
 };
 
 /// Where a text stops being UTF-8.
@@ -80,8 +80,7 @@ class RexsFile {
     std::vector<StageRelation> list;
     for (const auto& relation : relations_) {
       if (std::string(relation.attribute("type").value()) != "stage") continue;
-      list.push_back({role(relation, "planetary_stage"), role(relation, "stage"), role(relation, "gear_1"),
-                      role(relation, "gear_2")});
+      list.push_back({role(relation, "stage"), role(relation, "gear_1"), role(relation, "gear_2")});
     }
     return list;
   }
@@ -260,9 +259,11 @@ void read_planetary(const RexsFile& file, const std::vector<StageRelation>& stag
   if (rings.size() != 1)
     throw file.refusal(fmt::format("{} ring gears are in mesh; a scene needs a stage with one", rings.size()));
   std::optional<double> distance;
-  int planetary = 0;
+  std::vector<Component> planetary = file.of_type("planetary_stage");
   for (const auto& s : stages) {
-    if (is_ring(s.first) || is_ring(s.second)) planetary = s.planetary;
+    if (is_ring(s.first) || is_ring(s.second))
+      for (const auto& whole : file.related("assembly", "part", s.stage, {"assembly"}))
+        if (whole.type == "planetary_stage") planetary = {whole};
     if (planets.count(s.first) == planets.count(s.second)) continue;
     const int other = planets.count(s.first) ? s.second : s.first;
     if (is_ring(other)) continue;
@@ -285,8 +286,8 @@ void read_planetary(const RexsFile& file, const std::vector<StageRelation>& stag
     fill.put("carrier.mass_kg", file.number(carrier, "mass_of_component", "kg"));
     fill.custom(carrier, "carrier");
   }
-  if (planetary != 0) {
-    const auto& stage = file.component(planetary);
+  if (planetary.size() == 1) {
+    const auto& stage = planetary.front();
     if (!stage.name.empty()) fill.put_text("title", stage.name);
     fill.custom(stage, "");
   }

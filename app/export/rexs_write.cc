@@ -178,15 +178,13 @@ Rexs::Component gear(Rexs& rexs, const Scene& scene, const std::string& name, co
   return component;
 }
 
-void stage(Rexs& rexs, const std::string& name, double centre_distance, const Rexs::Component& unit,
-           const Rexs::Component* planetary, const Rexs::Component& first, const Rexs::Component& second) {
+/// A cylindrical stage, part of a planetary stage or of the gear unit.
+void stage(Rexs& rexs, const std::string& name, double centre_distance, const Rexs::Component& whole,
+           const Rexs::Component& first, const Rexs::Component& second) {
   auto component = rexs.component("cylindrical_stage", name);
   component.attribute("center_distance", "mm", centre_distance / units::mm);
-  rexs.relation("assembly", {{"assembly", &unit}, {"part", &component}});
-  std::vector<std::pair<const char*, const Rexs::Component*>> roles = {
-      {"stage", &component}, {"gear_1", &first}, {"gear_2", &second}};
-  if (planetary) roles.insert(roles.begin(), {"planetary_stage", planetary});
-  rexs.relation("stage", roles);
+  rexs.relation("assembly", {{"assembly", &whole}, {"part", &component}});
+  rexs.relation("stage", {{"stage", &component}, {"gear_1", &first}, {"gear_2", &second}});
 }
 
 /// Those that belong to the stage as a whole.
@@ -212,7 +210,7 @@ std::string rexs_text(const Scene& computed, const std::string& ring) {
                       make_gear(scene, scene.wheel, geometry::GearKind::external, -1), materials);
     custom_attributes(pinion, scene, {"pinion"});
     custom_attributes(wheel, scene, {"wheel"});
-    stage(rexs, "pinion - wheel", pair_centre_distance(scene), unit, nullptr, pinion, wheel);
+    stage(rexs, "pinion - wheel", pair_centre_distance(scene), unit, pinion, wheel);
     return rexs.text();
   }
   const auto found =
@@ -230,7 +228,7 @@ std::string rexs_text(const Scene& computed, const std::string& ring) {
   auto carrier = rexs.component("planet_carrier", "carrier");
   if (scene.carrier.mass) carrier.attribute("mass_of_component", "kg", *scene.carrier.mass);
   custom_attributes(carrier, scene, {"carrier"});
-  rexs.relation("assembly", {{"assembly", &unit}, {"part", &carrier}});
+  rexs.relation("assembly", {{"assembly", &planetary}, {"part", &carrier}});
   auto sun = gear(rexs, scene, "sun", scene.sun, set.sun_mesh().wheel(), materials);
   custom_attributes(sun, scene, {"sun"});
   auto annulus = gear(rexs, scene, "ring " + found->name, *found, set.ring_mesh().wheel(), materials);
@@ -239,9 +237,9 @@ std::string rexs_text(const Scene& computed, const std::string& ring) {
     auto planet = gear(rexs, scene, fmt::format("planet {}", n), scene.planet, set.sun_mesh().pinion(), materials);
     custom_attributes(planet, scene, {"planet"});
     const double distance = scene.stage.centre_distance;
-    stage(rexs, fmt::format("sun - planet {}", n), distance, unit, &planetary, sun, planet);
+    stage(rexs, fmt::format("sun - planet {}", n), distance, planetary, sun, planet);
     // As the number of teeth of the ring.
-    stage(rexs, fmt::format("planet {} - ring", n), -distance, unit, &planetary, planet, annulus);
+    stage(rexs, fmt::format("planet {} - ring", n), -distance, planetary, planet, annulus);
   }
   return rexs.text();
 }
