@@ -87,8 +87,10 @@ double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings
   const SupportSites sites = support_sites(problem);
   const int cells = solid_resolution(level, settings.degree, problem.pair.overlap_ratio()).face_cells;
   const bool helical = problem.pair.pinion().helix_angle() != 0;
-  const auto slices =
+  const auto of_face =
       solved_face(problem, settings).edges(helical ? support_slices(problem, cells) : 2 * cells).size() - 1;
+  const auto& [below, above] = problem.wheel_overhang;
+  const auto slices = of_face + (below > 0 ? 1 : 0) + (above > 0 && !solved_face(problem, settings).half ? 1 : 0);
   double forces = 0;
   for (const auto& site : sites.sites) forces += static_cast<double>(site.directions.size() * slices);
   return forces;

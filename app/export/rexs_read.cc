@@ -218,13 +218,16 @@ class Filler {
     std::vector<Component> places = {sun};
     for (const auto& shaft : file_.related("assembly", "part", sun.id, {"assembly"}))
       if (shaft.type == "shaft") places.push_back(shaft);
+    std::vector<double> torques;
     for (const auto& place : places) {
       if (const auto speed = file_.number(place, "rotational_speed", "1 / min"); speed && *speed != 0)
         put("stage.sun_speed_rpm", std::abs(*speed));
       for (const auto& load : file_.related("assembly", "assembly", place.id, {"part"}))
         if (const auto torque = file_.number(load, "torque_around_u_axis", "N m"); torque && *torque != 0)
-          put("stage.sun_torque_Nm", std::abs(*torque));
+          torques.push_back(std::abs(*torque));
     }
+    // Of several loads that of the sun is not known.
+    if (torques.size() == 1) put("stage.sun_torque_Nm", torques.front());
   }
 
  private:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/scene/model_limits.h"
+
 namespace annulus::app {
 
 namespace {
@@ -13,7 +15,7 @@ constexpr double unseen = 1e-3;  // of the accuracy
 double rough_stiffness(const Scene& scene, const MeshInput& mesh) {
   constexpr double per_width = 18e9;  // N/m^2, mean of one and two pairs of steel teeth
   constexpr double steel = 206e9;
-  return mesh.mean.value_or(per_width * scene.stage.face_width * scene.material.youngs_modulus / steel);
+  return mesh.mean.value_or(per_width * narrowest_face(scene) * scene.material.youngs_modulus / steel);
 }
 
 Scene with_rough_stiffness(const Scene& scene, std::initializer_list<MeshInput Scene::*> meshes) {

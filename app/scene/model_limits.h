@@ -17,6 +17,8 @@ inline constexpr double diameter_rounding = 1e-9;
 /// in the teeth.
 inline constexpr double largest_deflection = 0.1;
 
+/// m, of the narrowest gear: no common face is wider.
+[[nodiscard]] double narrowest_face(const Scene& scene);
 /// Least thickness of a rim behind the root, m.
 [[nodiscard]] double least_rim(const Scene& scene);
 /// "a computed mesh needs 1.2 mm = 0.3 modules of rim behind the root"

@@ -110,7 +110,11 @@ Blocks stresses_by_load(const NamedMeshes& meshes) {
     }
     blocks += heading("Stress over the load: " + name) + table;
   }
-  if (!blocks.empty()) blocks += paragraph("Largest over the mesh cycles, with the error by discretisation.");
+  if (!blocks.empty())
+    blocks += paragraph(
+        "Largest over the mesh cycles, with the error by discretisation. At the nominal load plane bodies are looked "
+        "at "
+        "all around; else stresses are those within some teeth of the contact.");
   return blocks;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 /// m, by how much the ends of helical teeth are ahead of their middle, and behind it.
 double ahead_of_middle(const FlankContact& flanks) {
-  return std::abs(roll_per_z(flanks)) * flanks.pair().pinion().parameters().face_width / 2;
+  return std::abs(roll_per_z(flanks)) * flanks.pair().common_face().width / 2;
 }
 
 /// Number and planet roll length of the pairs within a range.

@@ -34,6 +34,7 @@ void take_largest(const Eigen::MatrixXd& stress, double sign, double BodyStress:
   Eigen::Index point = 0, station = 0;
   if ((sign * stress).maxCoeff(&point, &station) <= least) return;
   largest.*value = stress(point, station);
+  largest.roughness.*value = 0;
   if (stress.cols() > 1 || point == 0 || point + 1 == stress.rows()) return;
   const double neighbours = (stress(point - 1, station) + stress(point + 1, station)) / 2;
   largest.roughness.*value = std::abs(stress(point, station) - neighbours);
@@ -70,8 +71,12 @@ std::map<int, Eigen::VectorXd> StressRecovery::by_sector(const std::vector<Tooth
   }
   const bool plane = body_.axial_stations() == 1;
   const bool all_around = look == Look::around && plane && c.max_interface_offset() == c.sectors() / 2;
-  const int reach = std::min({look == Look::around ? 6 : 3, c.max_interface_offset() - 1, c.sectors() / 2 - 2});
-  const int first = all_around ? 0 : last_tooth - reach, last = all_around ? body_.teeth - 1 : first_tooth + reach;
+  // Outwards from the loaded teeth, as far as the coupling of the interfaces is known.
+  const int loaded = last_tooth - first_tooth;
+  const int reach = std::max(0, std::min({look == Look::around ? 6 : 3, c.max_interface_offset() - 1 - loaded,
+                                          (c.sectors() - loaded) / 2 - 1}));
+  const int first = all_around ? 0 : first_tooth - reach, last = all_around ? body_.teeth - 1 : last_tooth + reach;
+  require(last > first, "stresses of a body whose teeth are not known to act on each other");
 
   // Displacements of the interfaces first ... last + 1. All loads that are as many interfaces away are one product.
   const int sectors = last - first + 1;

@@ -3,8 +3,10 @@
 #include <string>
 
 #include "app/export/rexs.h"
+#include "app/model/gear_system.h"
 #include "app/plan/gear_geometry.h"
 #include "app/scene/example_scenes.h"
+#include "app/scene/model_limits.h"
 #include "app/scene/scene_schema.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
@@ -64,6 +66,21 @@ BOOST_AUTO_TEST_CASE(flanks_touch_on_the_common_face) {
   BOOST_TEST(app::solid_reason(apart).find("middles of the faces are apart") != std::string::npos);
   BOOST_TEST(refusal(test::replaced(text, "axial_offset_mm = 1\n", "axial_offset_mm = 90\n"))
                  .find("90.0000 mm apart along the axis") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(helical_sets_have_all_middles_in_one_plane) {
+  const auto text = with_keys("face_width_mm = 60\naxial_offset_mm = 14\n", "", "");
+  const auto check = [](const std::string& scene) { app::check_stage(scene_of(scene)); };
+  BOOST_CHECK_NO_THROW(check(text));
+  const auto helical = test::replaced(text, "planets = 5\n", "planets = 5\nhelix_angle_deg = 0.1\n");
+  BOOST_CHECK_EXCEPTION(check(helical), GeometryError, [](const GeometryError& error) {
+    return std::string(error.what()).find("14 mm apart along the axis") != std::string::npos;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(the_narrowest_face_carries_the_load) {
+  const auto narrow = with_keys("face_width_mm = 60\n", "", "");
+  BOOST_TEST(app::narrowest_face(scene_of(narrow)) == 0.06, boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(bearings_of_each_planet) {

@@ -34,7 +34,8 @@ void face_keys(Draw& draw, GearSet& set, const std::string& gear, const Rack& ra
   set.values[gear + ".face_width_mm"] = rounded(rack.face_width_mm * draw.uniform(0.9, 1.2));
   set.values[gear + ".axial_offset_mm"] = rounded(rack.face_width_mm * draw.uniform(-0.02, 0.02));
   set.chances[gear + ".face_width_mm"] = 0.2;
-  set.chances[gear + ".axial_offset_mm"] = 0.1;
+  // Helical planetary sets need all middles in one plane.
+  set.chances[gear + ".axial_offset_mm"] = rack.helix_angle_deg == 0 ? 0.1 : 0;
 }
 
 void mesh_keys(GearSet& set, const std::string& mesh, Section section) {

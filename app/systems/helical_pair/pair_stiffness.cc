@@ -70,11 +70,14 @@ std::string no_closed_form(const Scene& scene, const PairGeometry& geometry) {
 
 StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& geometry, double transverse_force) {
   if (const auto why = no_closed_form(scene, geometry); !why.empty()) throw InputError("no closed form: " + why);
+  const auto face = geometry.gears.common_face();
   fem::LoadedMeshProblem problem{.pair = geometry.gears,
                                  .materials = {material_of(scene, scene.pinion), material_of(scene, scene.wheel)},
-                                 .face_width = geometry.gears.common_face().width,
+                                 .face_width = face.width,
                                  .planet_bore_radius = *scene.pinion.bore_diameter / 2,
                                  .wheel_support_radius = *scene.wheel.bore_diameter / 2,
+                                 .planet_overhang = face.pinion,
+                                 .wheel_overhang = face.wheel,
                                  .phases = 64,
                                  .name = pinion_wheel};
   for (const double factor : fem::table_load_factors) problem.loads.push_back(factor * transverse_force);

@@ -58,6 +58,29 @@ double least_bearing_load(const geometry::PlanetarySet& set) {
   return set.planets() * std::max(0.0, -std::cos(widest_gap / 2));
 }
 
+/// m, of the middle of the face on which two gears touch, along the axis.
+double middle_of_face(const geometry::GearPair& pair) {
+  const auto &p = pair.pinion().parameters(), &w = pair.wheel().parameters();
+  const double low = std::max(p.axial_offset - p.face_width / 2, w.axial_offset - w.face_width / 2);
+  const double high = std::min(p.axial_offset + p.face_width / 2, w.axial_offset + w.face_width / 2);
+  return (low + high) / 2;
+}
+
+/// Along helical teeth the mesh phase changes: both meshes of a planet are taken at one place of the axis.
+void check_helical_faces(const Scene& scene, const GearGeometry& geometry) {
+  if (scene.stage.helix_angle == 0) return;
+  for (const auto& ring : geometry.rings) {
+    const double apart = middle_of_face(ring.set.ring_mesh()) - middle_of_face(ring.set.sun_mesh());
+    if (std::abs(apart) <= 1e-6 * scene.stage.face_width) continue;
+    throw GeometryError(fmt::format(
+        "ring '{}': the middles of the faces on which the planets touch the ring and the sun are {} mm apart along the "
+        "axis. With helical teeth this changes the phase between both meshes, which is not modelled: change "
+        "face_width_mm "
+        "or axial_offset_mm so that they agree, or use spur teeth",
+        ring.name, to_text(apart / units::mm, 4)));
+  }
+}
+
 void check_planetary_bearings(const Scene& scene, const GearGeometry& geometry) {
   const auto& s = scene.supports;
   const double mesh = geometry.operating_point.mean_mesh_force;
@@ -97,6 +120,7 @@ void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry) 
   const double mesh_force = geometry.operating_point.mean_mesh_force;
   if (scene.dynamics) {
     check_deviations(scene);
+    check_helical_faces(scene, geometry);
     check_planetary_bearings(scene, geometry);
     for (const auto* mesh : {&scene.sun_planet, &scene.ring_planet})
       check_prescribed_mesh(scene, load, *mesh, mesh_force);
