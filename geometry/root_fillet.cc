@@ -96,7 +96,7 @@ void RootFillet::cut_involute(const Gear& gear, double transverse) {
   };
   const auto [deepest, depth] = boost::math::tools::brent_find_minima(beyond, whole / 2, whole, 40);
   const double last = beyond(whole);
-  constexpr double most = 2;  // modules of roll length: beyond it the neck of the tooth is another body
+  constexpr double most = 2;  // modules of roll length; cells of deeper undercuts were not looked at
   if (depth < 0 && last > 0) {
     const double beta = bracketed_root(beyond, deepest, whole, depth, last), radius = at(beta).norm();
     const double over = std::sqrt(std::max(0.0, (radius - base_radius_) * (radius + base_radius_)));

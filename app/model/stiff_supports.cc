@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "app/scene/model_limits.h"
-
 namespace annulus::app {
 
 namespace {
@@ -12,19 +10,19 @@ constexpr double unseen = 1e-3;  // of the accuracy
 
 }  // namespace
 
-double rough_stiffness(const Scene& scene, const MeshInput& mesh) {
+double rough_stiffness(const Scene& scene, const MeshInput& mesh, double face_width) {
   constexpr double per_width = 18e9;  // N/m^2, mean of one and two pairs of steel teeth
   constexpr double steel = 206e9;
-  return mesh.mean.value_or(per_width * narrowest_face(scene) * scene.material.youngs_modulus / steel);
+  return mesh.mean.value_or(per_width * face_width * scene.material.youngs_modulus / steel);
 }
 
-Scene with_rough_stiffness(const Scene& scene, std::initializer_list<MeshInput Scene::*> meshes) {
+Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> meshes) {
   Scene rough = scene;
-  for (const auto mesh : meshes) {
+  for (const auto& [mesh, face_width] : meshes) {
     if ((scene.*mesh).stiffness == StiffnessShape::rectangular) continue;
     rough.*mesh = {};
     (rough.*mesh).stiffness = StiffnessShape::constant;
-    (rough.*mesh).mean = rough_stiffness(scene, scene.*mesh);
+    (rough.*mesh).mean = rough_stiffness(scene, scene.*mesh, face_width);
   }
   return rough;
 }

@@ -6,11 +6,16 @@
 /// Stiffness as far as it matters: before a mesh is solved, and beside neighbours.
 namespace annulus::app {
 
-/// Rough stiffness of a mesh before it is solved, N/m: the prescribed mean, else that of steel teeth of the face width.
-[[nodiscard]] double rough_stiffness(const Scene& scene, const MeshInput& mesh);
+/// Rough stiffness of a mesh before it is solved, N/m: the prescribed mean, else that of steel teeth on a face of
+/// `face_width` (m).
+[[nodiscard]] double rough_stiffness(const Scene& scene, const MeshInput& mesh, double face_width);
+struct RoughMesh {
+  MeshInput Scene::*mesh;
+  double face_width;  ///< m
+};
 /// The scene with constant rough stiffness of these meshes: periods, steps and degrees of freedom follow from it before
 /// anything is solved. A rectangular wave, whose jumps matter, stays.
-[[nodiscard]] Scene with_rough_stiffness(const Scene& scene, std::initializer_list<MeshInput Scene::*> meshes);
+[[nodiscard]] Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> meshes);
 /// For a mesh whose stiffness is prescribed: a table that nobody reads.
 [[nodiscard]] MeshResult unread_table(const std::string& mesh);
 

@@ -1,9 +1,15 @@
 #include "app/plan/gear_geometry.h"
 
+#include <algorithm>
+
 namespace annulus::app {
 
 double face_width_of(const Scene& scene, const GearInput& gear) {
   return gear.face_width.value_or(scene.stage.face_width);
+}
+
+double narrower_face(const Scene& scene, const GearInput& one, const GearInput& other) {
+  return std::min(face_width_of(scene, one), face_width_of(scene, other));
 }
 
 geometry::GearParameters gear_parameters(const Scene& scene, const GearInput& input, geometry::GearKind kind,

@@ -41,6 +41,9 @@ auto geometry_of(const std::string& name, Make make) {
 /// m, its own or that of [stage].
 [[nodiscard]] double face_width_of(const Scene& scene, const GearInput& gear);
 
+/// m, of the narrower of two gears: their common face is no wider.
+[[nodiscard]] double narrower_face(const Scene& scene, const GearInput& one, const GearInput& other);
+
 /// A gear of the scene. `hand`: 1 for the hand of stage.helix_angle_deg, -1 for the other.
 [[nodiscard]] geometry::GearParameters gear_parameters(const Scene& scene, const GearInput& input,
                                                        geometry::GearKind kind, int hand = 1);

@@ -138,7 +138,7 @@ fem::FaceFeatures face_features(const Scene& scene, const GearInput& planet, con
   // Less changes the stiffness by less than the plane section's own error.
   constexpr double seen = 0.05;
   const double apart = std::abs(planet.axial_offset - wheel.axial_offset);
-  const bool beside = apart > seen * std::min(face_width_of(scene, planet), face_width_of(scene, wheel));
+  const bool beside = apart > seen * narrower_face(scene, planet, wheel);
   return {scene.stage.helix_angle, planet_name,  wheel_name, lead_modified(planet),
           lead_modified(wheel),    misalignment, beside};
 }

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/errors.h"
 #include "core/units.h"
@@ -35,19 +33,6 @@ std::string rim_rule(const Scene& scene) {
                      geometry::min_circle_distance);
 }
 
-double narrowest_face(const Scene& scene) {
-  double width = std::numeric_limits<double>::infinity();
-  const auto take = [&](const GearInput& gear) {
-    if (gear.teeth > 0) width = std::min(width, gear.face_width.value_or(scene.stage.face_width));
-  };
-  for (const GearInput* gear :
-       {static_cast<const GearInput*>(&scene.sun), static_cast<const GearInput*>(&scene.planet),
-        static_cast<const GearInput*>(&scene.pinion), static_cast<const GearInput*>(&scene.wheel)})
-    take(*gear);
-  for (const auto& ring : scene.rings) take(ring);
-  return std::isfinite(width) ? width : scene.stage.face_width;
-}
-
 void check_bore(const Scene& scene, const char* table, const HubGearInput& input, const geometry::Gear& gear) {
   if (!input.bore_diameter) return;
   const double most = 2 * (gear.root_radius() - least_rim(scene));
@@ -60,9 +45,8 @@ std::string small_displacements_rule() {
   return fmt::format("the model is for small displacements and strains, up to {} modules", largest_deflection);
 }
 
-void check_load(const Scene& scene, const char* key, double force, double youngs_modulus) {
-  const double in_modules =
-      force / (usual_mesh_stiffness * youngs_modulus * narrowest_face(scene)) / scene.stage.module;
+void check_load(const Scene& scene, const char* key, double force, double face_width, double youngs_modulus) {
+  const double in_modules = force / (usual_mesh_stiffness * youngs_modulus * face_width) / scene.stage.module;
   if (in_modules <= largest_deflection) return;
   throw InputError(
       fmt::format("{}: each mesh carries {} N. Teeth of this module, width and material then deflect by about {:.2g} "

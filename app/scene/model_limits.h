@@ -17,8 +17,6 @@ inline constexpr double diameter_rounding = 1e-9;
 /// in the teeth.
 inline constexpr double largest_deflection = 0.1;
 
-/// m, of the narrowest gear: no common face is wider.
-[[nodiscard]] double narrowest_face(const Scene& scene);
 /// Least thickness of a rim behind the root, m.
 [[nodiscard]] double least_rim(const Scene& scene);
 /// "a computed mesh needs 1.2 mm = 0.3 modules of rim behind the root"
@@ -30,9 +28,9 @@ inline constexpr double largest_deflection = 0.1;
 
 /// The bore of [`table`] leaves the gear a rim. Without bore nothing is checked.
 void check_bore(const Scene& scene, const char* table, const HubGearInput& input, const geometry::Gear& gear);
-/// `key` carries the load, of which one computed mesh carries `force` (N); `youngs_modulus` (Pa) of its gears in
-/// series.
-void check_load(const Scene& scene, const char* key, double force, double youngs_modulus);
+/// `key` carries the load, of which one computed mesh carries `force` (N) on a face of `face_width` (m);
+/// `youngs_modulus` (Pa) of its gears in series.
+void check_load(const Scene& scene, const char* key, double force, double face_width, double youngs_modulus);
 /// `key` carries the load, of which a mesh of prescribed stiffness carries `force` (N).
 void check_prescribed_mesh(const Scene& scene, const char* key, const MeshInput& mesh, double force);
 /// `key` is a bearing of `stiffness` (N/m) that carries `force` (N). Without a bearing the load is refused elsewhere,

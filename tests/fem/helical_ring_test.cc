@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <optional>
-#include <vector>
 
 #include "contact_bench.h"
 #include "fem/body/gear_body.h"
@@ -16,7 +14,6 @@ BOOST_AUTO_TEST_SUITE(helical_ring)
 
 using namespace annulus::tests;
 using annulus::fem::Fidelity;
-using annulus::fem::LoadedPosition;
 
 constexpr double degree = M_PI / 180;
 constexpr double first_pin = 0.03;  // rad: no symmetry with the teeth
@@ -96,22 +93,11 @@ BOOST_AUTO_TEST_CASE(pins_carry_the_transverse_force) {
     const auto p = bench.solve(phase, nominal_load);
     BOOST_TEST(p.force_balance_relative < 1e-8);
     BOOST_TEST(p.energy_balance_relative < 1e-8);
-    Eigen::Vector2d force = Eigen::Vector2d::Zero();
-    double moment = 0;
-    for (std::size_t q = 0; q < p.pins.size(); ++q) {
-      const double angle = first_pin + 2 * M_PI * static_cast<double>(q) / 24;
-      const Eigen::Vector2d radial(std::cos(angle), std::sin(angle)), tangential(-radial.y(), radial.x());
-      force += p.pins[q].radial_force * radial + p.pins[q].tangential_force * tangential;
-      moment += p.pins[q].tangential_force * ring_outside;
-      BOOST_TEST(p.pins[q].radial_force >= 0);
-    }
-    const double c = std::cos(p.ring_angle), s = std::sin(p.ring_angle);
-    const double outwards = c * force.x() + s * force.y(), clockwise = s * force.x() - c * force.y();
-    const double beta = pin_diameter / 2 / ring_outside;
-    size = std::max(size, std::abs(force.norm() / nominal_load - 1));
-    direction = std::max(direction, std::abs(std::atan2(outwards, clockwise) - problem.pair.working_pressure_angle()));
-    torque = std::max(
-        torque, std::abs(moment * (1 - beta * beta / 10) / nominal_load / problem.pair.wheel().base_radius() + 1));
+    for (const auto& pin : p.pins) BOOST_TEST(pin.radial_force >= 0);
+    const auto felt = pin_resultant(p, first_pin);
+    size = std::max(size, std::abs(felt.force / nominal_load - 1));
+    direction = std::max(direction, std::abs(felt.direction - problem.pair.working_pressure_angle()));
+    torque = std::max(torque, std::abs(felt.torque / nominal_load / problem.pair.wheel().base_radius() - 1));
   }
   record.at_most("direction of the resultant, error", "rad", direction, 3e-3, "teeth bend and turn the normals");
   record.at_most("size of the resultant, relative error", "", size, 5e-5, "square of that, a few times");

@@ -58,6 +58,21 @@ BOOST_AUTO_TEST_CASE(teeth_beyond_the_face_stiffen_and_the_plane_section_knows_b
   }
 }
 
+// Up to this offset a plane section stands for the mesh (mesh_model.cc).
+BOOST_AUTO_TEST_CASE(faces_apart_by_a_twentieth_are_within_the_error_of_the_plane_section) {
+  annulus::test::Verification record("Sun mesh whose faces are apart by a twentieth of their width",
+                                     "solid elements; the stated error of the plane section");
+  const auto even = narrow(sun_mesh(2));
+  auto apart = even;
+  apart.face_width *= 0.95;
+  apart.planet_overhang = {0.05 * width, 0};
+  apart.wheel_overhang = {0, 0.05 * width};
+  const double gain = solid_lte(even) / solid_lte(apart) / 0.95 - 1;  // per width of the common face
+  BOOST_TEST_MESSAGE("stiffer by " << gain << " per width");
+  record.at_most("change of the stiffness per width, over the stated error", "",
+                 std::abs(gain) / annulus::fem::plane_error(apart), 1, "the stated error");
+}
+
 BOOST_AUTO_TEST_CASE(half_of_a_centred_face_is_the_whole) {
   annulus::test::Verification record("A wider planet, solved on half of the face", "the same on the whole face");
   const auto problem = wider(narrow(sun_mesh(2)), module, module);

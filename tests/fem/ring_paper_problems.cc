@@ -1,5 +1,6 @@
 #include "ring_paper_problems.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -53,6 +54,22 @@ fem::LoadedMeshProblem with_helix(fem::LoadedMeshProblem problem, double helix_a
   const double working = geometry::inverse_involute(involute);
   problem.pair = {p, w, (w.reference_radius() + side * p.reference_radius()) * std::cos(alpha) / std::cos(working)};
   return problem;
+}
+
+PinResultant pin_resultant(const fem::LoadedPosition& position, double first_pin_angle) {
+  Eigen::Vector2d force = Eigen::Vector2d::Zero();
+  double moment = 0;
+  const auto& pins = position.pins;
+  for (std::size_t q = 0; q < pins.size(); ++q) {
+    const double angle = first_pin_angle + 2 * M_PI * static_cast<double>(q) / static_cast<double>(pins.size());
+    const Eigen::Vector2d radial(std::cos(angle), std::sin(angle)), tangential(-radial.y(), radial.x());
+    force += pins[q].radial_force * radial + pins[q].tangential_force * tangential;
+    moment += pins[q].tangential_force * ring_outside;
+  }
+  const double c = std::cos(position.ring_angle), s = std::sin(position.ring_angle);
+  const double outwards = c * force.x() + s * force.y(), clockwise = s * force.x() - c * force.y();
+  const double beta = pin_diameter / 2 / ring_outside;
+  return {force.norm(), std::atan2(outwards, clockwise), -moment * (1 - beta * beta / 10)};
 }
 
 fem::PinHeld paper_pins(int pins, double first_pin_angle) {

@@ -25,6 +25,13 @@ fem::LoadedMeshProblem with_planet_lead(fem::LoadedMeshProblem problem, double c
 /// The same with helical teeth (planet and ring right-handed for a positive angle, rad; a sun left-handed), at the
 /// centre distance without backlash.
 fem::LoadedMeshProblem with_helix(fem::LoadedMeshProblem problem, double helix_angle);
+/// What equal pins on the paper's ring feel together. Seen from the carrier the planet turns clockwise: at the pitch
+/// point it presses the ring outwards and clockwise.
+struct PinResultant {
+  double force = 0, direction = 0;  ///< N; rad, from the clockwise tangent at the pitch point outwards
+  double torque = 0;  ///< N m, clockwise; of a parabola over an arc of +- beta the lever arm is R (1 - beta^2 / 10)
+};
+PinResultant pin_resultant(const fem::LoadedPosition& position, double first_pin_angle);
 /// Pins in equal spacing.
 fem::PinHeld paper_pins(int pins, double first_pin_angle);
 

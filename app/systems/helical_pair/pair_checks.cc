@@ -143,7 +143,7 @@ void check_pair_geometry(const Scene& scene, const PairGeometry& geometry) {
     check_bearing(scene, "wheel.bearing_axial_N_per_m", scene.wheel.bearing_axial, along);
   }
   if (elastic)
-    check_load(scene, load, geometry.transverse_force,
+    check_load(scene, load, geometry.transverse_force, geometry.gears.common_face().width,
                fem::MeshMaterials(material_of(scene, scene.pinion), material_of(scene, scene.wheel)).youngs_modulus());
 }
 

@@ -40,7 +40,7 @@ std::vector<Quantity> pair_quantities(const Scene& scene, const PairGeometry& ge
 
 std::vector<DofPlan> pair_dofs(const Scene& scene) {
   std::vector<DofPlan> list;
-  const double mesh = rough_stiffness(scene, scene.pinion_wheel);
+  const double mesh = rough_stiffness(scene, scene.pinion_wheel, narrower_face(scene, scene.pinion, scene.wheel));
   for (const auto& [name, gear] :
        {std::pair<std::string, const PairGearInput&>{"pinion", scene.pinion}, {"wheel", scene.wheel}}) {
     const auto add = [&, gear = name](const char* axis, const char* bearing, double stiffness) {
@@ -83,7 +83,8 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
 /// The pair before its stiffness is computed.
 dynamics::HelicalPair rough_pair(const Scene& scene) {
   const auto& given = scene.pinion_wheel;
-  dynamics::MeshExcitation mesh = dynamics::ConstantStiffness{rough_stiffness(scene, given)};
+  dynamics::MeshExcitation mesh =
+      dynamics::ConstantStiffness{rough_stiffness(scene, given, narrower_face(scene, scene.pinion, scene.wheel))};
   if (given.stiffness == StiffnessShape::rectangular)
     mesh = dynamics::RectangularStiffness{*given.mean, *given.ripple, *given.duty, 0};
   return make_pair(scene, make_pair_geometry(scene), mesh, 0);

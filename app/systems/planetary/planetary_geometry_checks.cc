@@ -60,10 +60,9 @@ double least_bearing_load(const geometry::PlanetarySet& set) {
 
 /// m, of the middle of the face on which two gears touch, along the axis.
 double middle_of_face(const geometry::GearPair& pair) {
-  const auto &p = pair.pinion().parameters(), &w = pair.wheel().parameters();
-  const double low = std::max(p.axial_offset - p.face_width / 2, w.axial_offset - w.face_width / 2);
-  const double high = std::min(p.axial_offset + p.face_width / 2, w.axial_offset + w.face_width / 2);
-  return (low + high) / 2;
+  const auto& p = pair.pinion().parameters();
+  const auto face = pair.common_face();
+  return p.axial_offset - p.face_width / 2 + face.pinion.below + face.width / 2;
 }
 
 /// Along helical teeth the mesh phase changes: both meshes of a planet are taken at one place of the axis.
@@ -127,11 +126,13 @@ void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry) 
   }
   for (std::size_t i = 0; scene.tolerances && i < scene.rings.size(); ++i) (void)stage_tolerances(scene, geometry, i);
   const auto planet = material_of(scene, scene.planet);
-  const auto check_mesh = [&](const GearInput& wheel) {
-    check_load(scene, load, mesh_force, fem::MeshMaterials(planet, material_of(scene, wheel)).youngs_modulus());
+  const auto check_mesh = [&](const GearInput& wheel, const geometry::GearPair& pair) {
+    check_load(scene, load, mesh_force, pair.common_face().width,
+               fem::MeshMaterials(planet, material_of(scene, wheel)).youngs_modulus());
   };
-  if (sun) check_mesh(scene.sun);
-  for (std::size_t i = 0; ring && i < scene.rings.size(); ++i) check_mesh(scene.rings[i]);
+  if (sun) check_mesh(scene.sun, geometry.sun_mesh());
+  for (std::size_t i = 0; ring && i < scene.rings.size(); ++i)
+    check_mesh(scene.rings[i], geometry.rings.at(i).set.ring_mesh());
   for (std::size_t i = 0; i < scene.rings.size(); ++i) check_ring_supports(scene, geometry, i);
 }
 

@@ -78,8 +78,9 @@ std::vector<DofPlan> dofs(const Scene& scene) {
   given.sun_torsional = torsional_support(scene, StageMember::sun);
   given.ring_torsional = torsional_support(scene, StageMember::ring);
   given.carrier_torsional = torsional_support(scene, StageMember::carrier);
-  const auto effective =
-      effective_supports(scene, rough_stiffness(scene, scene.sun_planet), rough_stiffness(scene, scene.ring_planet));
+  const auto effective = effective_supports(
+      scene, rough_stiffness(scene, scene.sun_planet, narrower_face(scene, scene.sun, scene.planet)),
+      rough_stiffness(scene, scene.ring_planet, narrower_face(scene, scene.planet, scene.rings.front())));
   std::vector<DofPlan> list;
   const auto add = [&](const std::string& dof, const char* support, auto SupportInput::*stiffness) {
     const std::optional<double> before = given.*stiffness, after = effective.*stiffness;

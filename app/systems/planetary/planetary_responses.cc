@@ -78,7 +78,9 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
 std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearGeometry& geometry,
                                                  const std::vector<MeshModel>& meshes) {
   if (!scene.dynamics) return {};
-  const Scene rough = with_rough_stiffness(scene, {&Scene::sun_planet, &Scene::ring_planet});
+  const Scene rough =
+      with_rough_stiffness(scene, {{&Scene::sun_planet, narrower_face(scene, scene.sun, scene.planet)},
+                                   {&Scene::ring_planet, narrower_face(scene, scene.planet, scene.rings.front())}});
   const auto none = unread_table(sun_planet);
   std::vector<PlannedResponse> responses;
   for (std::size_t i = 0; i < scene.rings.size(); ++i)

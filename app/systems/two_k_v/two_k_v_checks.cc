@@ -110,7 +110,7 @@ void check_two_k_v_geometry(const Scene& scene, const geometry::GearPair& pair) 
     check_bearing(scene, "arc_gear.bearing_N_per_m", *scene.arc_gear.bearing, arc_force);
   }
   if (elastic)
-    check_load(scene, load, sun_force,
+    check_load(scene, load, sun_force, pair.common_face().width,
                fem::MeshMaterials(material_of(scene, scene.planet), material_of(scene, scene.sun)).youngs_modulus());
 }
 

@@ -61,7 +61,8 @@ std::vector<DofPlan> two_k_v_dofs(const Scene& scene) {
 
 /// The stage with rough stiffness, before anything is solved.
 dynamics::TwoKVStage rough_two_k_v(const Scene& scene) {
-  return make_two_k_v(with_rough_stiffness(scene, {&Scene::sun_planet, &Scene::arc_pins}),
+  return make_two_k_v(with_rough_stiffness(scene, {{&Scene::sun_planet, narrower_face(scene, scene.sun, scene.planet)},
+                                                   {&Scene::arc_pins, scene.stage.face_width}}),
                       {unread_table(sun_planet), unread_table(arc_pins)}, dynamics::LoadDependence::nominal);
 }
 
