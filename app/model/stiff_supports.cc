@@ -19,7 +19,8 @@ double rough_stiffness(const Scene& scene, const MeshInput& mesh, double face_wi
 Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> meshes) {
   Scene rough = scene;
   for (const auto& [mesh, face_width] : meshes) {
-    if ((scene.*mesh).stiffness == StiffnessShape::rectangular) continue;
+    const auto shape = (scene.*mesh).stiffness;
+    if (shape == StiffnessShape::rectangular || shape == StiffnessShape::harmonic) continue;
     rough.*mesh = {};
     (rough.*mesh).stiffness = StiffnessShape::constant;
     (rough.*mesh).mean = rough_stiffness(scene, scene.*mesh, face_width);

@@ -14,7 +14,7 @@ struct RoughMesh {
   double face_width;  ///< m
 };
 /// The scene with constant rough stiffness of these meshes: periods, steps and degrees of freedom follow from it before
-/// anything is solved. A rectangular wave, whose jumps matter, stays.
+/// anything is solved. Prescribed waves stay.
 [[nodiscard]] Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> meshes);
 /// For a mesh whose stiffness is prescribed: a table that nobody reads.
 [[nodiscard]] MeshResult unread_table(const std::string& mesh);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <variant>
 
 #include "core/floating_point.h"
 #include "dynamics/modes/modes.h"
@@ -35,15 +36,30 @@ double periods_alive(const IntegratorChoice& choice, double relative_tolerance) 
   return std::min(periods, contacts * std::log(1 / relative_tolerance) / (2 * std::numbers::pi * choice.least_damping));
 }
 
+/// A stiffness that varies, however smoothly, keeps fast motions alive.
+bool varies(const LumpedSystem& system) {
+  const auto is_constant = [](const auto& mesh) { return std::holds_alternative<ConstantStiffness>(mesh.excitation); };
+  return !std::all_of(system.meshes().begin(), system.meshes().end(), is_constant);
+}
+
 /// Accurate steps of the explicit method and of the L-stable one per mesh cycle, chosen by the counted steps of some
-/// eighty responses of random scenes.
+/// hundred responses of random scenes.
 struct AccurateSteps {
   double explicit_method = 0, implicit_method = 0;
 };
-AccurateSteps accurate_steps(StiffnessCourse course, double relative_tolerance, double alive) {
+AccurateSteps accurate_steps(const LumpedSystem& system, const IntegratorChoice& choice, StiffnessCourse course,
+                             double relative_tolerance, double alive) {
   const double finer = std::pow(1e-5 / relative_tolerance, 1.0 / 5);
-  if (course == StiffnessCourse::smooth) return {25 * finer, 190 * finer};
-  return {finer * (100 + 8 * alive), 400 * finer};
+  if (course == StiffnessCourse::sudden) return {finer * (100 + 8 * alive), 400 * finer};
+  constexpr double than_stable = 1.6;
+  return {finer * std::max(25.0, varies(system) ? than_stable * choice.explicit_steps : 0.0), 190 * finer};
+}
+
+/// Is a motion that varies suddenly beyond the harmonic balance? With so few samples of a mesh cycle it misses tooth
+/// contacts; with more it may miss the highest natural frequency, unless that is so high that it dies out in between.
+bool too_few_samples(int samples, int needed) {
+  constexpr int for_contacts = 256, too_fast = 10;
+  return samples < for_contacts || (needed > 2 * samples && needed < too_fast * samples);
 }
 
 }  // namespace
@@ -61,7 +77,7 @@ double integration_seconds(const LumpedSystem& system, double mesh_frequency, do
   if (!std::isfinite(choice.explicit_steps)) return std::numeric_limits<double>::infinity();
   const auto method = options.method == Integrator::automatic ? choice.method : options.method;
   const double alive = periods_alive(choice, options.relative_tolerance);
-  const auto accurate = accurate_steps(course, options.relative_tolerance, alive);
+  const auto accurate = accurate_steps(system, choice, course, options.relative_tolerance, alive);
   switch (method) {
     case Integrator::runge_kutta_4:
       return cycles / (mesh_frequency * options.fixed_step) * 4 * evaluation;
@@ -100,13 +116,16 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   if (!length.whole) return {(2 + looser) * window, unsteady_comparison, 0};
   SteadyCourse result;
   const int most = std::max(options.samples_per_cycle, most_samples_per_cycle(period));
-  // Doubled until they follow the highest natural frequency.
+  // Doubled until they follow tooth contacts and the highest natural frequency.
+  constexpr int of_contacts = 256;
   int samples = std::min(options.samples_per_cycle, most);
   const UntrappedFloatingPoint untrapped;  // see above
   const double highest = modes(system, mean_stiffnesses(system)).modes.back().frequency;
-  while (2 * samples <= most && samples < 4 * highest / mesh_frequency) samples *= 2;
-  constexpr double per_sample = 2e-6;  // s; of a mesh
-  result.balance_s = per_sample * static_cast<double>(system.meshes().size()) * period * samples;
+  const double needed = std::min(4 * highest / mesh_frequency, 1e9);
+  const double wanted = course == StiffnessCourse::sudden ? std::max<double>(needed, of_contacts) : needed;
+  while (2 * samples <= most && samples < wanted) samples *= 2;
+  constexpr double any = 5e-4, per_sample = 2e-6;  // s; of a mesh
+  result.balance_s = any + per_sample * static_cast<double>(system.meshes().size()) * period * samples;
   const auto integrate = [&](double windows, double compared) {
     result.cycles = (windows + looser) * window;
     result.compared_cycles = compared * window;
@@ -116,11 +135,13 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   const double until_two_agree = damping > 0 ? few_windows : options.max_windows;
   const double seconds = window / mesh_frequency;
   const bool jumps = std::isfinite(system.next_jump(0)) && why_not_piecewise(system, seconds).empty();
-  constexpr int enough = 256;  // samples of a mesh cycle, for the forces of many meshes
-  const bool confirmed = options.confirmation == Confirmation::always;
   // Jumps of constant stiffness are solved exactly.
-  const bool balanced = course == StiffnessCourse::sudden && !jumps && system.meshes().size() > 1;
-  const bool unresolved = confirmed && balanced && most < enough;
+  const bool balanced = course == StiffnessCourse::sudden && !jumps;
+  const bool too_few = balanced && too_few_samples(samples, static_cast<int>(needed));
+  const bool misses = too_few || (balanced && std::isfinite(system.next_jump(0)));
+  const bool confirmed =
+      options.confirmation == Confirmation::always || (options.confirmation == Confirmation::where_needed && misses);
+  const bool unresolved = confirmed && too_few;
   if (jumps && too_fast_for_piecewise(system, seconds, window))
     integrate(until_two_agree + 1, 0);
   else if (unresolved || options.steady_state == SteadyState::time_integration)

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/model/excitation.h"
 #include "app/model/stiff_supports.h"
 #include "app/plan/gear_geometry.h"
 #include "app/systems/helical_pair/pair_run.h"
+#include "app/systems/shared/mesh_names.h"
 #include "core/units.h"
 #include "dynamics/steady_state/integration_cost.h"
 
@@ -82,11 +84,9 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
 
 /// The pair before its stiffness is computed.
 dynamics::HelicalPair rough_pair(const Scene& scene) {
-  const auto& given = scene.pinion_wheel;
-  dynamics::MeshExcitation mesh =
-      dynamics::ConstantStiffness{rough_stiffness(scene, given, narrower_face(scene, scene.pinion, scene.wheel))};
-  if (given.stiffness == StiffnessShape::rectangular)
-    mesh = dynamics::RectangularStiffness{*given.mean, *given.ripple, *given.duty, 0};
+  const Scene rough =
+      with_rough_stiffness(scene, {{&Scene::pinion_wheel, narrower_face(scene, scene.pinion, scene.wheel)}});
+  const auto mesh = excitation_of(rough.pinion_wheel, unread_table(pinion_wheel), 0, dynamics::LoadDependence::nominal);
   return make_pair(scene, make_pair_geometry(scene), mesh, 0);
 }
 

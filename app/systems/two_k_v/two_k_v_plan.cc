@@ -130,10 +130,11 @@ std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
   // of which the last again with a looser tolerance. Changed tables likewise.
   const double turns = 2.0 * system.dofs() + 2 + 2.6;
   const auto& asked = scene.dynamics->mesh_cycles;
-  const double once =
-      dynamics::integration_seconds(system, stage.sun_mesh_frequency(), asked ? *asked : turns * scene.planet.teeth,
-                                    two_k_v_simulation(scene, stage).integrator);
   const auto planned = [&](const std::string& label, const std::string& variant, int compared) {
+    using Course = dynamics::StiffnessCourse;
+    const double once = dynamics::integration_seconds(
+        system, stage.sun_mesh_frequency(), asked ? *asked : turns * scene.planet.teeth,
+        two_k_v_simulation(scene, stage).integrator, compared > 0 ? Course::sudden : Course::smooth);
     constexpr double other = 0.2;         // vibration over a turn of the crank
     constexpr double of_sample = 1.2e-3;  // stiffness, lost motion and modes at one crank angle
     return PlannedResponse{.label = label,
