@@ -269,6 +269,7 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
                     .pressure = pressure_table(model, solved),
                     .line_load = line_load_table(model, solved),
                     .stress = stress_table(model, solved),
+                    .gauges = gauge_table(solved),
                     .facts = facts_of(model, solved),
                     .nominal = model.nominal_load()};
   const std::vector<std::string> keys = {"load_N", "mesh_phase"};  // by which rows are found

@@ -49,6 +49,7 @@ struct MeshResult {
   Csv pressure{};                      ///< pressure_<mesh>.csv: pressure on the flanks
   Csv line_load{};                     ///< line_load_<mesh>.csv: load over the face width
   Csv stress{};                        ///< stress_<mesh>.csv: stress along roots and rim; its header names the curves
+  Csv gauges{};                        ///< gauges_<mesh>.csv: strain gauges on the wheel, by this mesh alone
   std::string picture{};               ///< SVG of the meshes in contact; empty when none was meshed
   std::vector<DeformedMesh> fields{};  ///< deformation and stress of both bodies in mesh; in no file, may be empty
   FileSet bodies{};                    ///< OUT/<ring>/mesh: .msh and .vtu of both bodies; empty once they are written
@@ -79,11 +80,9 @@ struct MeshResult {
 };
 
 /// The tables beside the positions, by the first part of their file names.
-inline constexpr std::pair<const char*, Csv MeshResult::*> side_tables[] = {{"pins", &MeshResult::pins},
-                                                                            {"housing", &MeshResult::housing},
-                                                                            {"pressure", &MeshResult::pressure},
-                                                                            {"line_load", &MeshResult::line_load},
-                                                                            {"stress", &MeshResult::stress}};
+inline constexpr std::pair<const char*, Csv MeshResult::*> side_tables[] = {
+    {"pins", &MeshResult::pins},           {"housing", &MeshResult::housing}, {"pressure", &MeshResult::pressure},
+    {"line_load", &MeshResult::line_load}, {"stress", &MeshResult::stress},   {"gauges", &MeshResult::gauges}};
 
 /// What lumped models read of a mesh: without pictures and tables for people.
 [[nodiscard]] MeshResult stiffness_alone(const MeshResult& mesh);
@@ -107,10 +106,10 @@ template <>
 struct Members<app::MeshResult> {
   template <class Value>
   static auto of(Value& value) {
-    auto& [model, contact_ratio, table, positions, housing, pins, pressure, line_load, stress, picture, fields, bodies,
-           facts, coupling, nominal, tabulated, reused] = value;
-    return std::tie(contact_ratio, table, positions, housing, pins, pressure, line_load, stress, picture, fields,
-                    bodies, facts, nominal, tabulated);
+    auto& [model, contact_ratio, table, positions, housing, pins, pressure, line_load, stress, gauges, picture, fields,
+           bodies, facts, coupling, nominal, tabulated, reused] = value;
+    return std::tie(contact_ratio, table, positions, housing, pins, pressure, line_load, stress, gauges, picture,
+                    fields, bodies, facts, nominal, tabulated);
   }
 };
 

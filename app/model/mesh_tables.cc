@@ -176,4 +176,20 @@ Csv stress_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   return csv;
 }
 
+Csv gauge_table(const fem::LoadedMeshResult& solved) {
+  constexpr double micro = 1e-6;
+  Csv csv;
+  if (solved.gauges.empty()) return csv;
+  csv.columns = {"ring_angle_deg"};
+  for (std::size_t g = 0; g < solved.gauges.size(); ++g) {
+    csv.header.emplace_back(fmt::format("gauge_{}", g + 1), solved.gauges[g].name);
+    csv.columns.push_back(fmt::format("gauge_{}_um_per_m", g + 1));
+  }
+  for (std::size_t i = 0; i < solved.gauges.front().angle.size(); ++i) {
+    auto& row = csv.rows.emplace_back(1, solved.gauges.front().angle[i] / units::deg);
+    for (const auto& gauge : solved.gauges) row.push_back(gauge.strain[i] / micro);
+  }
+  return csv;
+}
+
 }  // namespace annulus::app

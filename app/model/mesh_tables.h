@@ -37,5 +37,8 @@ inline constexpr std::pair<const char*, double fem::BodyStress::*> stress_column
 /// stress_<mesh>.csv: stress along tooth roots and rim, each where its largest von Mises stress occurs. The header
 /// names the curves: `curve_1: planet root`.
 [[nodiscard]] Csv stress_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
+/// gauges_<mesh>.csv: the strain of every gauge while this mesh alone, at the nominal load, moves once around the
+/// wheel. The header names the gauges.
+[[nodiscard]] Csv gauge_table(const fem::LoadedMeshResult& solved);
 
 }  // namespace annulus::app

@@ -126,6 +126,11 @@ std::string MeshModel::id() const {
       id.add("below", overhang->below).add("above", overhang->above);
     for (const double load : problem->loads) id.add("load", load);
     if (problem->pair.internal()) add_structure(id, problem->structure);
+    for (const auto& gauge : problem->gauges) {
+      id.add("gauge", gauge.name).add("place", static_cast<double>(gauge.place));
+      id.add("direction", static_cast<double>(gauge.direction)).add("angle", gauge.angle);
+      id.add("offset", gauge.offset).add("length", gauge.length).add("z", gauge.z);
+    }
     id.add("accuracy", settings.accuracy).add("degree", settings.degree).add("level", settings.level.value_or(0));
   }
   return id.id();
@@ -134,18 +139,19 @@ std::string MeshModel::id() const {
 std::string MeshModel::label() const { return ring.empty() ? title : fmt::format("{} of '{}'", title, ring); }
 
 fem::FaceFeatures face_features(const Scene& scene, const GearInput& planet, const std::string& planet_name,
-                                const GearInput& wheel, const std::string& wheel_name, double misalignment) {
+                                const GearInput& wheel, const std::string& wheel_name, double misalignment,
+                                bool gauges_across) {
   // Less changes the stiffness by less than the plane section's own error.
   constexpr double seen = 0.05;
   const double apart = std::abs(planet.axial_offset - wheel.axial_offset);
   const bool beside = apart > seen * narrower_face(scene, planet, wheel);
   return {scene.stage.helix_angle, planet_name,  wheel_name, lead_modified(planet),
-          lead_modified(wheel),    misalignment, beside};
+          lead_modified(wheel),    misalignment, beside,     gauges_across};
 }
 
 std::string solid_reason(const Scene& scene, const GearMesh& mesh) {
   return fem::solid_reason(mesh.structure, face_features(scene, mesh.planet, mesh.planet_name, mesh.wheel,
-                                                         mesh.wheel_name, mesh.misalignment));
+                                                         mesh.wheel_name, mesh.misalignment, mesh.gauges_across));
 }
 
 MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
@@ -169,7 +175,8 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
                    .misalignment = mesh.misalignment,
                    .planet_overhang = face.pinion,
                    .wheel_overhang = face.wheel,
-                   .name = mesh.mesh};
+                   .name = mesh.mesh,
+                   .gauges = mesh.gauges};
   const fem::MeshWish wish{.model = scene.fidelity,
                            .accuracy = scene.accuracy,
                            .mean_force = mesh.mean_force,

@@ -55,6 +55,8 @@ struct GearMesh {
   std::string planet_name, wheel_name;             ///< for people
   std::optional<double> wheel_support_diameter{};  ///< m, bore of a wheel on a hub, outside of a ring
   fem::RingStructure structure{};                  ///< of a ring
+  std::vector<fem::StrainGauge> gauges{};          ///< on a ring
+  bool gauges_across = false;                      ///< they tell places along the face width apart
   double misalignment = 0;                         ///< m
   double mean_force = 0;                           ///< N, of one mesh
 };
@@ -64,6 +66,7 @@ struct GearMesh {
 /// The same before there are gears: fem::solid_reason() of these.
 [[nodiscard]] fem::FaceFeatures face_features(const Scene& scene, const GearInput& planet,
                                               const std::string& planet_name, const GearInput& wheel,
-                                              const std::string& wheel_name, double misalignment);
+                                              const std::string& wheel_name, double misalignment,
+                                              bool gauges_across = false);
 
 }  // namespace annulus::app

@@ -58,7 +58,7 @@ AccurateSteps accurate_steps(const LumpedSystem& system, const IntegratorChoice&
 /// Is a motion that varies suddenly beyond the harmonic balance? With so few samples of a mesh cycle it misses tooth
 /// contacts; with more it may miss the highest natural frequency, unless that is so high that it dies out in between.
 bool too_few_samples(int samples, int needed) {
-  constexpr int for_contacts = 256, too_fast = 10;
+  constexpr int for_contacts = 256, too_fast = 4;
   return samples < for_contacts || (needed > 2 * samples && needed < too_fast * samples);
 }
 

@@ -18,18 +18,18 @@ StressLine observe(const StressSurface& surface, const SectorModel& model, int m
   const auto& trace = surface.trace;
   if (trace.nodes.empty()) return line;
   line.first_load = loads.columns();
-  line.axial_stations = static_cast<int>(trace.axial.size());
+  line.axial = trace.axial;
   line.components = model.dimension == 3 ? 3 : 1;
   const int nodes = static_cast<int>(trace.profile.size()), step = (nodes - 1 + most - 1) / most;
   double arc = 0;
   for (int u = 0; u < nodes; ++u) {
-    const auto at = [&](int station) { return model.nodes[trace.nodes[station * line.axial_stations]]; };
+    const auto at = [&](int station) { return model.nodes[trace.nodes[station * line.axial_stations()]]; };
     if (u > 0) arc += (at(u) - at(u - 1)).norm();
     if (u % step != 0 && u != nodes - 1) continue;
     line.angle.push_back(trace.profile[u]);
     line.arc.push_back(arc);
-    for (int z = 0; z < line.axial_stations; ++z) {
-      const auto& stress = surface.stress[u * line.axial_stations + z];
+    for (int z = 0; z < line.axial_stations(); ++z) {
+      const auto& stress = surface.stress[u * line.axial_stations() + z];
       loads.observed.push_back(stress.tangential);
       if (line.components == 1) continue;
       loads.observed.push_back(stress.axial);
@@ -92,7 +92,7 @@ void members(Stream& stream, Port& port) {
 
 template <class Stream>
 void members(Stream& stream, StressLine& line) {
-  stream(line.first_load, line.components, line.axial_stations, line.angle, line.arc);
+  stream(line.first_load, line.components, line.axial, line.angle, line.arc);
 }
 
 template <class Stream>
@@ -189,9 +189,31 @@ CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry:
 }
 
 GearBody compose_body(CondensedTooth tooth, const GearBodyOptions& options) {
-  tooth.body.compliance = compose_ring(tooth.sector, tooth.body.teeth, options.extent,
-                                       options.sector.held == HeldBoundary::none, options.threads);
-  return std::move(tooth.body);
+  GearBody& body = tooth.body;
+  Eigen::Index count = 0;
+  for (const auto& wanted : options.gauges) {
+    body.gauges.push_back({gauge_parts(wanted, body), {}});
+    count += static_cast<Eigen::Index>(body.gauges.back().parts.size());
+  }
+  // Loads of one sector, a column for each part of a gauge.
+  Eigen::MatrixXd probes = Eigen::MatrixXd::Zero(tooth.sector.interface_load.cols(), count);
+  Eigen::Index column = 0;
+  for (const auto& gauge : body.gauges)
+    for (const auto& part : gauge.parts)
+      probes.col(column++).segment(body.root_low.first_load, part.weights.size()) = part.weights;
+  std::vector<Eigen::MatrixXd> carried;
+  body.compliance = compose_ring(tooth.sector, body.teeth, options.extent, options.sector.held == HeldBoundary::none,
+                                 options.threads, probes, &carried);
+  column = 0;
+  for (auto& gauge : body.gauges) {
+    gauge.at_interfaces = Eigen::MatrixXd::Zero(body.compliance.interface_size(), body.teeth);
+    for (const auto& part : gauge.parts) {
+      const Eigen::MatrixXd& one = carried[static_cast<std::size_t>(column++)];
+      for (int d = 0; d < body.teeth; ++d)
+        gauge.at_interfaces.col((((d + part.sector) % body.teeth) + body.teeth) % body.teeth) += one.col(d);
+    }
+  }
+  return std::move(body);
 }
 
 }  // namespace annulus::fem

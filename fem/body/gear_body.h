@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "fem/body/gauge_place.h"
 #include "fem/condensation/cyclic_body.h"
 #include "fem/elasticity/arc_load.h"
 #include "fem/elasticity/sector_model.h"
@@ -16,13 +17,14 @@ using Wrench = Eigen::Matrix<double, 6, 1>;
 
 /// Where a body is asked for its surface stress: a line of the cross-section at every axial station.
 struct StressLine {
-  int first_load = 0;  ///< number of its first observed load, [point][axial station][component]
-  int components = 1;  ///< tangential; of a solid also axial and shear
-  int axial_stations = 1;
+  int first_load = 0;         ///< number of its first observed load, [point][axial station][component]
+  int components = 1;         ///< tangential; of a solid also axial and shear
+  std::vector<double> axial;  ///< m, z of the axial stations, ascending; one in the plane
   std::vector<double> angle;  ///< rad, of its points in the sector's frame, ascending
   std::vector<double> arc;    ///< m, length of the line up to each point
+  [[nodiscard]] int axial_stations() const { return static_cast<int>(axial.size()); }
   [[nodiscard]] int points() const { return static_cast<int>(angle.size()); }
-  [[nodiscard]] int loads() const { return points() * axial_stations * components; }
+  [[nodiscard]] int loads() const { return points() * axial_stations() * components; }
 };
 
 /// A whole gear reduced to the loads it takes and the stresses it is asked for, from one condensed sector.
@@ -41,6 +43,7 @@ struct GearBody {
   /// the form circle to the interface); the rim opposite, where it is free. Empty when stresses are not asked for.
   StressLine root_low, root_high, rim;
   CyclicCompliance compliance;
+  std::vector<GaugeProbe> gauges;  ///< as wanted
   long unknowns = 0;
 
   [[nodiscard]] int axial_stations() const { return axial.size() > 0 ? axial.size() : 1; }
@@ -65,6 +68,7 @@ struct GearBodyOptions {
   SectorModelOptions sector;
   RingExtent extent;
   std::vector<ArcLoad> arcs;  ///< loads on a free outside
+  std::vector<WantedGauge> gauges;
   int threads = 1;
   const ResultStore* store = nullptr;  ///< where tooth superelements are cached; may be null
 };

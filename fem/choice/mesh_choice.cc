@@ -54,7 +54,7 @@ std::string repeats_text(const LoadedMeshProblem& problem, int positions) {
 /// Formulas do where their error, known beforehand, is within the accuracy.
 void prefer_formulas(const LoadedMeshProblem& problem, const MeshWish& wish, MeshChoice& choice) {
   if (wish.model != WantedModel::automatic || choice.settings.fidelity != Fidelity::plane) return;
-  if (wish.accuracy < least_closed_form_error) return;
+  if (wish.accuracy < least_closed_form_error || !problem.gauges.empty()) return;
   const double error = closed_form_error(problem);
   if (error > wish.accuracy) return;
   choice.settings.fidelity = Fidelity::closed_form;
@@ -75,6 +75,7 @@ std::string solid_reason(const RingStructure& structure, const FaceFeatures& fea
   add(features.planet_lead_modified, fmt::format(lead, features.planet_name));
   add(features.misalignment != 0, "the flanks are misaligned, so the load varies along the face width");
   add(features.beside, "the middles of the faces are apart, so the load varies along the face width");
+  add(features.gauges_across, "strain gauges stand at places along the face width, or measure along the axis");
   return reasons;
 }
 

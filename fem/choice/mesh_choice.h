@@ -14,8 +14,9 @@ struct FaceFeatures {
   double helix_angle = 0;  ///< rad
   std::string planet_name, wheel_name;
   bool planet_lead_modified = false, wheel_lead_modified = false;
-  double misalignment = 0;  ///< m
-  bool beside = false;      ///< the middles of the faces are apart
+  double misalignment = 0;     ///< m
+  bool beside = false;         ///< the middles of the faces are apart
+  bool gauges_across = false;  ///< strain gauges tell places along the face width apart
 };
 /// Why a mesh needs a solid model: what changes along its face width. Empty when nothing does.
 [[nodiscard]] std::string solid_reason(const RingStructure& structure, const FaceFeatures& features);

@@ -24,12 +24,25 @@ std::pair<int, bool> locate(int offset, int sectors, int max_offset) {
   return {d, mirrored};
 }
 
-/// Inverses of the harmonics h = first, first + step, ... summed to compliances between interfaces: m^2 x offsets.
-Eigen::MatrixXd sum_harmonics(const HarmonicMatrix& interfaces, double pitch, int sectors, int offsets, int first,
-                              int step) {
+/// Sums over harmonics of a ring.
+struct HarmonicSum {
+  Eigen::MatrixXd compliance;  ///< between interfaces, m^2 x offsets
+  Eigen::MatrixXd carried;     ///< displacements of interfaces under probes, (m probes) x sectors
+};
+
+/// Inverses of the harmonics h = first, first + step, ... summed to compliances between interfaces, and their answers
+/// to probes.
+HarmonicSum sum_harmonics(const HarmonicMatrix& interfaces, double pitch, int sectors, int offsets, int first, int step,
+                          const Eigen::MatrixXd& probes) {
   constexpr int chunk = 8;  // harmonics summed by one matrix product
   const auto m = interfaces.load_low().rows();
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(m * m, offsets);
+  HarmonicSum result{Eigen::MatrixXd::Zero(m * m, offsets), Eigen::MatrixXd::Zero(m * probes.cols(), sectors)};
+  Eigen::MatrixXd& sum = result.compliance;
+  Eigen::MatrixXd probe_low, probe_high;
+  if (probes.cols() > 0) {
+    probe_low = interfaces.load_low() * probes;
+    probe_high = interfaces.load_high() * probes;
+  }
   Eigen::MatrixXd inverses(m * m, 2 * chunk), turns(2 * chunk, offsets);
   const int harmonics = sectors / 2 + 1;
   for (int h = first, k = 0; h < harmonics; h += step) {
@@ -40,6 +53,11 @@ Eigen::MatrixXd sum_harmonics(const HarmonicMatrix& interfaces, double pitch, in
     inverses.col(2 * k + 1) = entries.imag();
     // Harmonics h and N - h are conjugate.
     const double weight = (h == 0 || 2 * h == sectors ? 1.0 : 2.0) / sectors;
+    if (probes.cols() > 0) {
+      const Eigen::MatrixXcd answer = matrix * (probe_low + std::polar(1.0, -h * pitch) * probe_high);
+      for (int d = 0; d < sectors; ++d)
+        result.carried.col(d) += (std::polar(weight, h * d * pitch) * answer.reshaped()).real();
+    }
     for (int d = 0; d < offsets; ++d) {
       const Complex turn = std::polar(weight, h * d * pitch);
       turns(2 * k, d) = turn.real();
@@ -51,7 +69,7 @@ Eigen::MatrixXd sum_harmonics(const HarmonicMatrix& interfaces, double pitch, in
     lapack::add_product(inverses, turns, sum);
     k = 0;
   }
-  return sum;
+  return result;
 }
 
 }  // namespace
@@ -91,23 +109,27 @@ void CyclicCompliance::add_interface_displacement(int offset, const Eigen::Matri
 }
 
 CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, const RingExtent& extent, bool floating,
-                              int threads) {
+                              int threads, const Eigen::MatrixXd& probes, std::vector<Eigen::MatrixXd>* carried) {
   require(sectors >= 3, "a ring needs at least three sectors");
   const int max_offset = std::min(extent.max_offset, sectors / 2);
   const int offsets = extent.whole_ring ? sectors / 2 + 1 : std::min(max_offset + 1, sectors / 2) + 1;
   const HarmonicMatrix harmonics(sector, floating);
 
-  std::vector<Eigen::MatrixXd> partial(harmonic_groups);
+  std::vector<HarmonicSum> partial(harmonic_groups);
   for_each_task(harmonic_groups, threads, [&](std::size_t group) {
-    partial[group] =
-        sum_harmonics(harmonics, sector.pitch_angle, sectors, offsets, static_cast<int>(group), harmonic_groups);
+    partial[group] = sum_harmonics(harmonics, sector.pitch_angle, sectors, offsets, static_cast<int>(group),
+                                   harmonic_groups, probes);
   });
-  for (int group = 1; group < harmonic_groups; ++group) partial.front() += partial[group];
+  for (int group = 1; group < harmonic_groups; ++group) {
+    partial.front().compliance += partial[group].compliance;
+    partial.front().carried += partial[group].carried;
+  }
 
   const auto m = harmonics.load_low().rows();
   std::vector<Eigen::MatrixXd> interfaces;
   interfaces.reserve(offsets);
-  for (int d = 0; d < offsets; ++d) interfaces.emplace_back(partial.front().col(d).reshaped(m, m));
+  for (int d = 0; d < offsets; ++d) interfaces.emplace_back(partial.front().compliance.col(d).reshaped(m, m));
+  for (Eigen::Index p = 0; p < probes.cols(); ++p) carried->push_back(partial.front().carried.middleRows(p * m, m));
   return {
       sectors,          sector.ports, max_offset, std::move(interfaces), harmonics.load_low(), harmonics.load_high(),
       sector.compliance};

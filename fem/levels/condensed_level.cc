@@ -92,6 +92,31 @@ std::vector<BodyField> worst_fields(const LoadedMeshProblem& problem, const Mesh
   return fields;
 }
 
+/// A mesh that is some teeth further on a wheel that repeats strains a gauge as the mesh here strains one as many teeth
+/// behind it.
+std::vector<GaugeHistory> gauge_histories(const LoadedMeshProblem& problem, const FlankContact& flanks,
+                                          const std::vector<LoadedPosition>& positions) {
+  const auto& wheel = problem.pair.wheel();
+  const int teeth = wheel.teeth(), repeating = problem.structure.repeating_teeth(teeth);
+  const int step = wheel_tooth(flanks, 0, 1) - wheel_tooth(flanks, 0, 0);
+  const double turn = (problem.pair.internal() ? -step : step) * wheel.pitch_angle();
+  const std::size_t loads = problem.loads.size();
+  std::vector<GaugeHistory> histories;
+  for (std::size_t g = 0; g < problem.gauges.size(); ++g) {
+    auto& history = histories.emplace_back(GaugeHistory{problem.gauges[g].name, {}, {}});
+    for (int cycle = 0; cycle < teeth; ++cycle) {
+      const int solved = cycle % repeating, further = cycle - solved;
+      const int behind = (((-step * further) % teeth) + teeth) % teeth;
+      for (int phase = 0; phase < problem.phases; ++phase) {
+        const auto& position = positions[static_cast<std::size_t>(solved * problem.phases + phase) * loads + loads / 2];
+        history.angle.push_back(position.ring_angle + further * turn);
+        history.strain.push_back(position.gauge_strains.at(g)[behind]);
+      }
+    }
+  }
+  return histories;
+}
+
 /// What the discretised pressure leaves of the stiffness at the middle load: against twice as many elements, at some
 /// positions of the first cycle. Halving constant pieces leaves a quarter of their error.
 double contact_error(const LoadedMeshProblem& problem, const FlankContact& flanks, const MeshBodies& bodies,
@@ -132,9 +157,13 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
     LoadedPosition position =
         system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load], cache, warm, &forces);
     using Look = StressRecovery::Look;
-    const auto look = load == static_cast<int>(problem.loads.size() / 2) ? Look::around : Look::near;
+    const bool middle = load == static_cast<int>(problem.loads.size() / 2);
+    const auto look = middle ? Look::around : Look::near;
     position.planet_stress = bodies.planet_stress->stresses(forces.planet, {}, look).largest;
     position.wheel_stress = bodies.wheel_stress->stresses(forces.wheel, forces.supports, look).largest;
+    if (middle)
+      for (const auto& gauge : bodies.gauges)
+        position.gauge_strains.push_back(gauge.strains(forces.wheel, forces.supports));
     return position;
   };
   SolvedLevel result;
@@ -147,6 +176,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   if (accept && accept(result)) {
     solve_positions(problem, settings, true, one_cycle, solve, part_of(progress, compared, 1), result.positions);
     result.stress_curves = worst_curves(problem, bodies, system, result.positions);
+    result.gauges = gauge_histories(problem, flanks, result.positions);
     if (settings.recovery == Recovery::fields) result.fields = worst_fields(problem, bodies, system, result.positions);
   }
   result.planet_sector = std::move(bodies.planet_sector);

@@ -112,16 +112,18 @@ BodyStress largest_stress_errors(const LoadedMeshProblem& problem, const std::ve
   const std::size_t loads = problem.loads.size();
   BodyStress result;
   for (const auto value : stress_values) {
-    double largest = 0, difference = std::numeric_limits<double>::quiet_NaN(), roughness = 0;
+    double largest = 0, roughness = 0;
+    std::optional<double> difference;
     for (std::size_t i = loads / 2; i < positions.size(); i += loads)
       largest = std::max(largest, stress_size(positions[i], body, value));
     for (std::size_t i = loads / 2; i < positions.size(); i += loads)
       if (const double size = stress_size(positions[i], body, value);
           coarser[i].*body && positions[i].*body && size >= near * largest) {
-        difference = std::fmax(difference, std::abs(size - stress_size(coarser[i], body, value)));
+        difference = std::max(difference.value_or(0), std::abs(size - stress_size(coarser[i], body, value)));
         roughness = std::max(roughness, (*(positions[i].*body)).roughness.*value);
       }
-    result.*value = left.difference * difference + left.notch_of(value) * largest + roughness;
+    result.*value = left.difference * difference.value_or(std::numeric_limits<double>::quiet_NaN()) +
+                    left.notch_of(value) * largest + roughness;
   }
   return result;
 }

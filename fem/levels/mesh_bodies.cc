@@ -125,6 +125,16 @@ NotchFactors notch_of(const GearTasks& tasks, double poisson_ratio, int degree) 
   return tasks.fine ? notch_factors(tasks.fine->body, tasks.coarse->body, poisson_ratio, degree) : NotchFactors{};
 }
 
+/// A gauge in the frame of the solve, which is the mirror image of a real ring. `turn`: of its straight outside.
+StrainGauge in_solve(StrainGauge gauge, const LoadedMeshProblem& problem, double turn) {
+  if (problem.pair.internal()) {
+    gauge.angle = -gauge.angle;
+    gauge.offset = -gauge.offset;
+  }
+  if (gauge.place == StrainGauge::Place::outside) gauge.angle += turn;
+  return gauge;
+}
+
 BodySource source_of(const Task& task) { return {task.mesh, task.profile, task.support_radius, task.options.sector}; }
 
 }  // namespace
@@ -148,6 +158,16 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
                      wheel_plan.support_edges(support_slices(problem, counts.face_cells)), face.half,
                      wheel_plan.turn());
   GearTasks planet = maker.make(planet_plan, {}), wheel = maker.make(wheel_plan, supports);
+  std::vector<StrainGauge> gauges;
+  for (const auto& gauge : problem.gauges) {
+    gauges.push_back(in_solve(gauge, problem, wheel_plan.turn()));
+    wheel.body.options.gauges.push_back({gauges.back(), problem.materials.wheel, face.half ? face.width : 0});
+    if (gauge.place != StrainGauge::Place::root) continue;
+    StrainGauge hoop = gauges.back();
+    hoop.direction = StrainGauge::Direction::hoop;
+    for (auto* section : {&wheel.fine, &wheel.coarse})
+      if (*section) (*section)->options.gauges.push_back({hoop, problem.materials.wheel, 0});
+  }
 
   MeshBodies bodies;
   bodies.mesh_seconds = meshing.seconds();
@@ -181,6 +201,13 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
                                                           of_planet.poisson_ratio, nullptr, bodies.planet_notch);
   bodies.wheel_stress = std::make_unique<StressRecovery>(
       bodies.wheel->body(), problem.face_width, of_wheel.poisson_ratio, bodies.supports.get(), bodies.wheel_notch);
+  std::size_t in_section = 0;
+  for (std::size_t i = 0; i < gauges.size(); ++i) {
+    double factor = 1;
+    if (wheel.fine && gauges[i].place == StrainGauge::Place::root)
+      factor = gauge_factor(in_section++, gauges[i].angle, wheel.fine->body, wheel.coarse->body);
+    bodies.gauges.emplace_back(i, bodies.wheel->body(), problem.face_width, bodies.supports.get(), factor);
+  }
   bodies.condense_seconds = condensing.seconds();
   return bodies;
 }

@@ -11,6 +11,7 @@
 #include "fem/problem/loaded_mesh_problem.h"
 #include "fem/problem/loaded_mesh_result.h"
 #include "fem/problem/solved_face.h"
+#include "fem/recovery/gauge_recovery.h"
 #include "fem/recovery/stress_recovery.h"
 
 namespace annulus::fem {
@@ -20,6 +21,7 @@ struct MeshBodies : SolveCost {
   std::unique_ptr<CondensedBody> planet, wheel;
   std::unique_ptr<SupportRow> supports;  ///< of a floating ring
   std::unique_ptr<StressRecovery> planet_stress, wheel_stress;
+  std::vector<GaugeRecovery> gauges;  ///< on the wheel, as in the problem
   NotchFactors planet_notch, wheel_notch;
   BodySource planet_source, wheel_source;
   SolvedFace face;

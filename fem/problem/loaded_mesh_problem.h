@@ -8,6 +8,7 @@
 
 #include "fem/problem/material.h"
 #include "fem/problem/ring_structure.h"
+#include "fem/problem/strain_gauge.h"
 #include "geometry/gear_pair.h"
 
 namespace annulus {
@@ -29,6 +30,7 @@ struct LoadedMeshProblem {
   std::vector<double> loads{};                             ///< N, total normal forces, strictly increasing
   int phases = 16;                                         ///< positions per mesh cycle
   std::string name = "mesh";                               ///< of the mesh in its stiffness table
+  std::vector<StrainGauge> gauges{};                       ///< on the wheel; of condensed models with elements
 };
 
 /// Estimated relative error of a stiffness in plane strain for a face of finite width: towards its ends the material is

@@ -65,7 +65,9 @@ struct LoadedPosition {
   double face_load_factor = 1;          ///< K_H_beta (ISO 6336-1): largest over mean line load
   std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only
   std::optional<RecoveredStress> planet_stress{}, wheel_stress{};  ///< none of resolved models
-  double force_balance_relative = 0;                               ///< |sum of force x lever arm - torque| / torque
+  /// Under the middle load: strains of each gauge turned by 0, 1, ... teeth in the frame of the solve.
+  std::vector<Eigen::VectorXd> gauge_strains{};
+  double force_balance_relative = 0;  ///< |sum of force x lever arm - torque| / torque
   /// |work - 2 x strain energy - work against the gaps| / the larger of work and energy
   double energy_balance_relative = 0;
   double reciprocity_relative = 0;  ///< asymmetry of the compliance between tooth pairs, formed both ways
@@ -79,6 +81,15 @@ struct StressCurve {
   std::vector<double> abscissa;  ///< root: arc length counter-clockwise through the tooth space, from form circle to
                                  ///< form circle, m; rim: polar angle in the wheel's own frame, rad
   std::vector<double> tangential, von_mises;  ///< Pa
+};
+
+/// What a strain gauge shows while the mesh moves once around the wheel under its middle load.
+struct GaugeHistory {
+  std::string name;
+  /// Pitch points of the mesh in the wheel's own frame (LoadedPosition::ring_angle), not reduced to a turn: one per
+  /// phase of all mesh cycles.
+  std::vector<double> angle;
+  std::vector<double> strain;
 };
 
 /// Displacement and stress of a body under the contact forces of one position, in the frame of its tooth 0.
@@ -105,7 +116,8 @@ struct SolvedBodies {
   std::vector<double> pin_angles{};   ///< rad, from the centre of tooth 0; empty without pins
   std::vector<double> slice_edges{};  ///< m, z of the slices of the face width
   std::vector<StressCurve> stress_curves{};
-  std::vector<BodyField> fields{};  ///< of both bodies, if wanted, where the wheel's root is stressed most
+  std::vector<GaugeHistory> gauges{};  ///< as in the problem
+  std::vector<BodyField> fields{};     ///< of both bodies, if wanted, where the wheel's root is stressed most
 };
 
 /// Time of a solve and its tooth superelements.

@@ -9,6 +9,29 @@
 
 namespace annulus::fem {
 
+namespace {
+
+void check_gauges(const LoadedMeshProblem& problem, Fidelity fidelity) {
+  if (problem.gauges.empty()) return;
+  if (is_resolved(fidelity) || fidelity == Fidelity::closed_form)
+    throw InputError(
+        fmt::format("strain gauges need a whole body of finite elements: use model = \"plane\" or "
+                    "\"solid\", not \"{}\"",
+                    fidelity_name(fidelity)));
+  for (const auto& gauge : problem.gauges) {
+    if (!(gauge.length > 0))
+      throw InputError(fmt::format("strain gauge '{}' is {:.4g} mm long and needs a positive length", gauge.name,
+                                   1e3 * gauge.length));
+    if (!is_solid(fidelity) && gauge.direction == StrainGauge::Direction::axial)
+      throw InputError(
+          fmt::format("strain gauge '{}' measures along the axis, where a plane model has no strain: use "
+                      "model = \"solid\"",
+                      gauge.name));
+  }
+}
+
+}  // namespace
+
 void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
   if (problem.loads.empty() || problem.phases < 2)
     throw InputError(fmt::format("a loaded mesh needs a load and two phases, and has {} and {}", problem.loads.size(),
@@ -22,6 +45,7 @@ void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
   if (!problem.pair.internal() && !held_outside(problem.structure))
     throw InputError(fmt::format("a ring structure ({}) belongs to the ring mesh, and the pair is external",
                                  problem.structure.words().description));
+  check_gauges(problem, fidelity);
   if (is_solid(fidelity)) return;
   for (const auto* gear : {&problem.pair.pinion(), &problem.pair.wheel()}) {
     if (gear->parameters().lead_crowning != 0 || gear->parameters().lead_slope != 0)

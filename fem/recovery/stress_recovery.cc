@@ -112,12 +112,12 @@ std::map<int, Eigen::VectorXd> StressRecovery::by_sector(const std::vector<Tooth
 }
 
 StressRecovery::Line StressRecovery::on_sector(const StressLine& line, const Eigen::VectorXd& observed) const {
-  Line result{line.arc, Eigen::MatrixXd(line.points(), line.axial_stations), {}};
+  Line result{line.arc, Eigen::MatrixXd(line.points(), line.axial_stations()), {}};
   result.von_mises = result.tangential;
   const double nu = poisson_ratio_;
   Eigen::Index at = line.first_load - first_load_;
   for (int u = 0; u < line.points(); ++u)
-    for (int z = 0; z < line.axial_stations; ++z, at += line.components) {
+    for (int z = 0; z < line.axial_stations(); ++z, at += line.components) {
       const double t = observed[at];
       const double axial = line.components == 1 ? nu * t : observed[at + 1];  // plane strain
       const double shear = line.components == 1 ? 0 : observed[at + 2];

@@ -50,8 +50,8 @@ BOOST_AUTO_TEST_CASE(flanks_touch_on_the_common_face) {
   const auto scene = scene_of(test::replaced(
       text, "[mesh.ring_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294\n", ""));
   const auto geometry = app::make_geometry(scene);
-  const auto& sun = app::sun_mesh_model(scene, geometry).problem.value();
-  const auto& ring = app::ring_mesh_model(scene, geometry, 0).problem.value();
+  const auto sun_model = app::sun_mesh_model(scene, geometry), ring_model = app::ring_mesh_model(scene, geometry, 0);
+  const auto &sun = sun_model.problem.value(), &ring = ring_model.problem.value();
   const auto is = [](double value, double mm) { return std::abs(value - mm * units::mm) < 1e-12; };
   BOOST_TEST((is(sun.face_width, 84) && is(sun.wheel_overhang.below, 3) && is(sun.wheel_overhang.above, 1)));
   BOOST_TEST(sun.planet_overhang.total() == 0);

@@ -40,6 +40,13 @@ double usual_number(Draw& draw, const Parameter& p, const Scales& scales) {
 
 double in_range(const Parameter& p, double value) { return rounded(std::clamp(value, p.low, p.high)); }
 
+bool is_undrawn(const Parameter& p) {
+  return std::any_of(undrawn_keys().begin(), undrawn_keys().end(), [key = p.key()](const auto& undrawn) {
+    const auto& name = undrawn.first;
+    return key == name || (name.starts_with("*.") && key.ends_with(name.substr(1)));
+  });
+}
+
 /// Walks the tables of a kind; a key is written when its conditions let it be and chance or a rule wants it.
 class Walk {
  public:
@@ -48,6 +55,7 @@ class Walk {
   void run() {
     for (const auto& t : tables_) {
       if (t.path.empty() || t.role == Table::Role::study) continue;
+      if (std::all_of(t.parameters.begin(), t.parameters.end(), is_undrawn)) continue;
       const auto found = set_.chances.find(t.path);
       if (t.required || draw_.chance(found != set_.chances.end() ? found->second : t.path == "dynamics" ? 0.95 : 0.15))
         set_.draft.open_table(t.path);
@@ -133,8 +141,7 @@ class Walk {
   }
 
   void write(const Parameter& p) {
-    for (const auto& [key, why] : undrawn_keys())
-      if (key == p.key() || (key.starts_with("*.") && p.key().ends_with(key.substr(1)))) return;
+    if (is_undrawn(p)) return;
     if (const auto own = set_.values.find(p.key()); own != set_.values.end()) {
       set_.draft.set(p.key(), own->second);
       return;
@@ -201,6 +208,14 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"pinion.tip_diameter_mm", "that of the basic rack"},
       {"wheel.tip_diameter_mm", "that of the basic rack"},
       {"stage.helix_angle_deg", "of the rack, and none of a 2K-V stage"},
+      {"strain_gauge.name", "gauges change nothing"},
+      {"strain_gauge.ring", "gauges change nothing"},
+      {"strain_gauge.place", "gauges change nothing"},
+      {"strain_gauge.angle_deg", "gauges change nothing"},
+      {"strain_gauge.offset_mm", "gauges change nothing"},
+      {"strain_gauge.length_mm", "gauges change nothing"},
+      {"strain_gauge.direction", "gauges change nothing"},
+      {"strain_gauge.axial_positions_mm", "gauges change nothing"},
       {"dynamics.mesh_cycles", "a length of motion, without a steady state"},
   };
   return keys;

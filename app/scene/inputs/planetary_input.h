@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/scene/inputs/common_input.h"
+#include "fem/problem/strain_gauge.h"
 
 namespace annulus::app {
 
@@ -62,12 +63,23 @@ struct ToleranceInput {
 };
 
 /// What the scene of a planetary stage has besides stage, material, errors and dynamics.
+/// A strain gauge on the ring, in its frame.
+struct StrainGaugeInput {
+  std::string name;
+  std::optional<std::string> ring;  ///< absent: all
+  fem::StrainGauge::Place place = fem::StrainGauge::Place::root;
+  fem::StrainGauge::Direction direction = fem::StrainGauge::Direction::hoop;
+  double angle = 0, offset = 0, length = 0;
+  std::vector<double> axial_positions;  ///< m, from the middle of the common face; empty: there
+};
+
 struct PlanetaryInput {
   CarrierInput carrier;
   std::vector<RingInput> rings;
   SupportInput supports;
   MeshInput ring_planet;
   std::optional<ToleranceInput> tolerances;
+  std::vector<StrainGaugeInput> strain_gauges;
 };
 
 }  // namespace annulus::app

@@ -18,6 +18,7 @@
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "app/systems/planetary/stage_supports.h"
+#include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/profile_shifts.h"
 #include "core/errors.h"
 #include "core/units.h"
@@ -48,6 +49,7 @@ class PlanetaryChecker : KeyChecks {
     plane_models();
     rim_coupling();
     tolerances();
+    check_strain_gauges(scene_, problems_);
     check_power_flow(scene_, problems_);
   }
 

@@ -5,6 +5,7 @@
 #include "app/results/cached_value.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "app/systems/planetary/stage_response.h"
+#include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/mesh_names.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
@@ -13,8 +14,9 @@
 namespace annulus::app {
 
 std::string solid_reason(const Scene& scene, const RingInput& ring) {
-  return fem::solid_reason(ring_structure(ring), face_features(scene, scene.planet, "planet", ring, "ring",
-                                                               scene.errors.ring_planet_misalignment));
+  return fem::solid_reason(ring_structure(ring),
+                           face_features(scene, scene.planet, "planet", ring, "ring",
+                                         scene.errors.ring_planet_misalignment, gauges_need_solid(scene, ring)));
 }
 
 std::string solid_reason(const Scene& scene) {
@@ -50,6 +52,8 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
                             .wheel_name = "ring",
                             .wheel_support_diameter = 2 * made.outside_radius,
                             .structure = ring_structure(input),
+                            .gauges = gauges_on(scene, input, made.set.ring_mesh().common_face().width),
+                            .gauges_across = gauges_need_solid(scene, input),
                             .misalignment = scene.errors.ring_planet_misalignment,
                             .mean_force = geometry.operating_point.mean_mesh_force});
 }

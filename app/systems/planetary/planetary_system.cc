@@ -16,6 +16,7 @@
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_warnings.h"
+#include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/mesh_names.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 
@@ -69,6 +70,15 @@ class PlanetarySystem final : public GearSystem {
 
   [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
     return mesh_stiffness(scene(), geometry(), mesh, options);
+  }
+
+  void save_inputs(const SystemRun& run, const RunOptions& options) const override {
+    for (std::size_t i = 0; i < scene().rings.size(); ++i)
+      if (const auto readings = gauge_readings(scene(), geometry().rings[i].set, run.tables.at(i + 1))) {
+        auto csv = to_csv(*readings);
+        csv.header.insert(csv.header.begin(), {"annulus_version", version()});
+        csv.write(options.out / scene().rings[i].name / "strain_gauges.csv");
+      }
   }
 
   [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t ring,

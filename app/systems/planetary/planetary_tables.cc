@@ -2,6 +2,7 @@
 
 #include "app/scene/gear_tables.h"
 #include "app/systems/planetary/planetary_scene.h"
+#include "app/systems/planetary/strain_gauges.h"
 #include "geometry/flank_tolerances.h"
 
 namespace annulus::app {
@@ -298,6 +299,7 @@ std::vector<Table> planetary_tables() {
           mesh("mesh.ring_planet", "Stiffness of the ring mesh, prescribed instead of computed.", &Scene::ring_planet),
           rim_coupling_key(),
           tolerances_table(),
+          strain_gauge_table(),
           optimised_ring_key()};
 }
 

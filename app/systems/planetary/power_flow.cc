@@ -41,6 +41,10 @@ void mirror(Scene& scene) {
     for (auto* first : {&ring.first_pin_angle, &ring.first_spline_angle, &ring.first_bolt_angle})
       if (*first) **first = -**first;
   }
+  for (auto& gauge : scene.strain_gauges) {
+    gauge.angle = -gauge.angle;
+    gauge.offset = -gauge.offset;
+  }
   auto& e = scene.errors;
   for (auto* phases : {&e.planet_eccentricity_phase, &e.planet_pin_position_phase})
     for (double& phase : *phases) phase = -phase;

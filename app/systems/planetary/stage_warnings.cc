@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/model/scene_warnings.h"
+#include "app/systems/planetary/strain_gauges.h"
 
 namespace annulus::app {
 
@@ -55,6 +56,7 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
                       fmt::format("rigid, because the scene does not mention {}. Soft planet bearings, carriers and "
                                   "rings equalise the planet loads; give a stiffness, or \"rigid\"",
                                   fmt::join(keys, ", "))});
+  warn_of_gauges(list, scene);
   if (scene.tolerances && by_default(scene, "tolerances.distribution"))
     list.push_back({"distribution_assumed", Severity::note,
                     "deviations within the tolerances are drawn from a normal distribution, because the scene does not "

@@ -8,6 +8,7 @@
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/planetary/power_flow.h"
+#include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/json.h"
 
@@ -88,7 +89,9 @@ double worst(const MeshResult& a, const MeshResult& b, const std::string& fact) 
   return std::isnan(y) ? x : std::max(x, y);
 }
 
-Json ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
+Json ring_json(const RunResult& result, std::size_t number) {
+  const auto& ring = result.rings[number];
+  const auto& sun_mesh = result.sun_mesh;
   Json json = {
       {"model", ring.mesh.model.fidelity}, {"ring_planet", mesh_json(ring.mesh)}, {"sun_planet", mesh_json(sun_mesh)}};
   json["invariants"] = {{"force_balance_relative", json_number(worst(ring.mesh, sun_mesh, "force_balance_relative"))},
@@ -96,6 +99,8 @@ Json ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
                         {"max_penetration_m", json_number(worst(ring.mesh, sun_mesh, "max_penetration_m"))},
                         {"closure_relative", json_number(worst(ring.mesh, sun_mesh, "closure_relative"))},
                         {"reciprocity_relative", json_number(worst(ring.mesh, sun_mesh, "reciprocity_relative"))}};
+  if (const auto readings = gauge_readings(result.scene, result.geometry.rings[number].set, ring.mesh))
+    json["strain_gauges"] = to_json(result.scene, *readings);
   if (ring.tolerances) json["load_sharing_of_assemblies"] = to_json(*ring.tolerances);
   if (!ring.response) return json;
   const auto& f = ring.response->figures;
@@ -146,7 +151,7 @@ Json stage_summary(const RunResult& result) {
                                                              {"torque_N_m", point.flow.torque[member]},
                                                              {"power_W", point.flow.power(member)}};
   for (std::size_t i = 0; i < result.rings.size(); ++i) {
-    auto& entry = json["rings"][result.rings[i].name] = ring_json(result.rings[i], result.sun_mesh);
+    auto& entry = json["rings"][result.rings[i].name] = ring_json(result, i);
     entry.update(variant_studies_json(result.studies, i));
   }
   return json;

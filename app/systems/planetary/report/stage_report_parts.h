@@ -49,6 +49,8 @@ struct PlanetLines {
 [[nodiscard]] Section comparison_section(const RunResult& result);  ///< with the published results
 // supports.cc
 [[nodiscard]] Section supports_section(const RunResult& result);  ///< pins, bolts and splines
+// strain_gauges.cc
+[[nodiscard]] Section strain_gauges_section(const RunResult& result);  ///< strains over a revolution of the carrier
 // load_sharing.cc, coupling.cc, motion.cc, modes.cc
 [[nodiscard]] Section dynamics_section(const RunResult& result);  ///< load sharing, dynamic factors, spectra
 [[nodiscard]] Section coupling_section(const RunResult& result);  ///< of the planets through the ring

@@ -1,0 +1,53 @@
+#include "app/systems/planetary/strain_gauges.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/systems/planetary/report/stage_report_parts.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+Section strain_gauges_section(const RunResult& result) {
+  constexpr double micro = 1e-6;
+  Section section{"strain-gauges", "Strain gauges"};
+  for (std::size_t i = 0; i < result.rings.size(); ++i) {
+    const auto& ring = result.rings[i];
+    const auto readings = gauge_readings(result.scene, result.geometry.rings[i].set, ring.mesh);
+    if (!readings) continue;
+    auto plot = wide_plot("Ring " + ring.name, "angle of planet 1 in the frame of the ring, °", "strain, µm/m");
+    PageTable table{.head = {"gauge", "largest, µm/m", "smallest, µm/m", "range, µm/m"},
+                    .style = PageTable::Style::numbers};
+    std::vector<double> degrees;
+    for (const double angle : readings->angle) degrees.push_back(angle / units::deg);
+    for (std::size_t g = 0; g < readings->gauges.size(); ++g) {
+      const auto& gauge = readings->gauges[g];
+      std::vector<double> strain;
+      for (const double s : gauge.strain) strain.push_back(s / micro);
+      plot.series.push_back({.label = gauge.gauge, .x = degrees, .y = std::move(strain), .colour = g});
+      table.rows.push_back({gauge.gauge, measured(gauge.largest / micro, gauge.error / micro),
+                            measured(gauge.smallest / micro, gauge.error / micro),
+                            measured(gauge.range() / micro, 2 * gauge.error / micro)});
+    }
+    section.blocks += Pictures{{std::move(plot)}} + table;
+    PageTable factors{.head = {"gauges across the face", phrase("K{} as they measure it", subscript("Hβ")),
+                               phrase("K{} of the contact", subscript("Hβ"))}};
+    for (std::size_t g = 0; g < result.scene.strain_gauges.size(); ++g) {
+      const auto factor = readings->face_load_factor(g);
+      if (!factor) continue;
+      const auto contact = ring.mesh.peak("face_load_factor");
+      factors.rows.push_back({result.scene.strain_gauges[g].name, to_text(*factor, 4),
+                              contact ? to_text(contact->value, 4) : std::string("–")});
+    }
+    if (!factors.rows.empty()) section.blocks += factors;
+  }
+  if (section.blocks.empty()) return section;
+  section.blocks += paragraph(
+      "Every planet carries the mean mesh force, and its mesh strains the ring as if it were alone: the strains of all "
+      "planets are added. The strain is averaged over the length of the gauge. Positive: tension. The error is that of "
+      "the stresses of the ring. As gauges measure it, the face load factor is the largest range over the mean one.");
+  return section;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,232 @@
+#include "app/systems/planetary/strain_gauges.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "app/scene/scene_declare.h"
+#include "app/systems/planetary/ring_structures.h"
+#include "core/not_known.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+using Place = fem::StrainGauge::Place;
+using Direction = fem::StrainGauge::Direction;
+
+constexpr double micro = 1e-6;
+
+bool is_on(const StrainGaugeInput& gauge, const RingInput& ring) { return !gauge.ring || *gauge.ring == ring.name; }
+
+std::string name_at(const StrainGaugeInput& gauge, double axial_position) {
+  if (gauge.axial_positions.size() < 2) return gauge.name;
+  return fmt::format("{}, z = {:.6g} mm", gauge.name, axial_position / units::mm);
+}
+
+/// In the middle of the face unless told.
+std::vector<double> positions_of(const StrainGaugeInput& gauge) {
+  return gauge.axial_positions.empty() ? std::vector<double>{0} : gauge.axial_positions;
+}
+
+class GaugeChecks : KeyChecks {
+ public:
+  using KeyChecks::KeyChecks;
+
+  void run() {
+    for (std::size_t i = 0; i < scene_.strain_gauges.size(); ++i) {
+      const auto& gauge = scene_.strain_gauges[i];
+      if (!usable("strain_gauge.name", i)) continue;
+      for (std::size_t j = 0; j < i; ++j)
+        if (scene_.strain_gauges[j].name == gauge.name)
+          problem("strain_gauge.name", i, "is the name of more than one gauge; each needs its own");
+      if (gauge.ring && std::none_of(scene_.rings.begin(), scene_.rings.end(),
+                                     [&](const auto& ring) { return ring.name == *gauge.ring; }))
+        problem("strain_gauge.ring", i, "is the name of no ring (ring.name)");
+      if (gauge.place == Place::outside) outside(i, gauge);
+    }
+  }
+
+ private:
+  void outside(std::size_t i, const StrainGaugeInput& gauge) {
+    for (const auto& ring : scene_.rings)
+      if (is_on(gauge, ring) && fem::held_outside(ring_structure(ring)))
+        problem(
+            "strain_gauge.place", i,
+            fmt::format("is not possible on ring '{}', whose outside is fixed and has no free surface; use \"root\" or "
+                        "name another ring (strain_gauge.ring)",
+                        ring.name));
+  }
+};
+
+}  // namespace
+
+Table strain_gauge_table() {
+  Declarations gauge(
+      "strain_gauge",
+      "A strain gauge on the ring: its strain over a revolution of the carrier. Several tables are several "
+      "gauges.",
+      &Scene::strain_gauges);
+  gauge.on_request().only_if(is("mesh.ring_planet.stiffness", {"computed"}),
+                             "a prescribed stiffness has no ring that is strained");
+  gauge.key("name", &StrainGaugeInput::name, "Name of the gauge in results.").required();
+  gauge.key("ring", &StrainGaugeInput::ring, "The ring that carries it.").absent("every ring");
+  gauge
+      .choice("place", &StrainGaugeInput::place, {{"root", Place::root}, {"outside", Place::outside}},
+              "root: in the root of a tooth space; outside: on the free outside of the rim.")
+      .required();
+  gauge
+      .key("angle_deg", &StrainGaugeInput::angle,
+           "Angle of the gauge from the middle of tooth 0, as for pins. In a root: any angle within its tooth space.")
+      .required()
+      .from(-360, 360);
+  gauge
+      .key("offset_mm", &StrainGaugeInput::offset,
+           "Distance from the middle of the tooth space along the surface of the root, counter-clockwise.")
+      .fallback(0.0, "in the middle of the tooth space")
+      .from(-1e3, 1e3)
+      .only_if(is("strain_gauge.place", {"root"}));
+  gauge.key("length_mm", &StrainGaugeInput::length, "Length along the surface over which the strain is averaged.")
+      .required()
+      .above(0, 1e3);
+  gauge
+      .choice("direction", &StrainGaugeInput::direction, {{"hoop", Direction::hoop}, {"axial", Direction::axial}},
+              "hoop: along the surface in the transverse section; axial: along the axis, which needs solid bodies.")
+      .fallback("hoop", "as gauges for the load over the face width are placed");
+  gauge
+      .key("axial_positions_mm", &StrainGaugeInput::axial_positions,
+           "Distances from the middle of the common face, positive towards +z; a gauge at each of them. Several need "
+           "solid bodies and give K_Hβ as gauges measure it.")
+      .absent("one gauge, in the middle of the face")
+      .from(-1e5, 1e5)
+      .longest(64)
+      .not_empty("position")
+      .distinct();
+  return gauge.done();
+}
+
+void check_strain_gauges(Scene& scene, std::vector<Problem>& problems) { GaugeChecks(scene, problems).run(); }
+
+std::vector<fem::StrainGauge> gauges_on(const Scene& scene, const RingInput& ring, double face_width) {
+  std::vector<fem::StrainGauge> list;
+  for (const auto& gauge : scene.strain_gauges)
+    if (is_on(gauge, ring))
+      for (const double position : positions_of(gauge))
+        list.push_back({.name = name_at(gauge, position),
+                        .place = gauge.place,
+                        .direction = gauge.direction,
+                        .angle = gauge.angle,
+                        .offset = gauge.offset,
+                        .length = gauge.length,
+                        .z = face_width / 2 + position});
+  return list;
+}
+
+bool gauges_need_solid(const Scene& scene, const RingInput& ring) {
+  return std::any_of(scene.strain_gauges.begin(), scene.strain_gauges.end(), [&](const auto& gauge) {
+    return is_on(gauge, ring) && (!gauge.axial_positions.empty() || gauge.direction == Direction::axial);
+  });
+}
+
+void warn_of_gauges(std::vector<Warning>& list, const Scene& scene) {
+  for (const auto& ring : scene.rings) {
+    const bool lifts = ring.structure == Structure::pinned || ring.structure == Structure::splined;
+    const bool gauged = std::any_of(scene.strain_gauges.begin(), scene.strain_gauges.end(),
+                                    [&](const auto& gauge) { return is_on(gauge, ring); });
+    if (!lifts || !gauged || scene.stage.planets < 2) continue;
+    list.push_back({"strain_gauges", Severity::warning,
+                    "strain gauges show the sum of what each planet's mesh strains by itself. Supports that lift make "
+                    "the meshes act on each other, which the sum leaves out",
+                    ring.name});
+  }
+}
+
+std::optional<double> GaugeReadings::face_load_factor(std::size_t gauge) const {
+  double sum = 0, largest = 0;
+  int count = 0;
+  for (const auto& reading : gauges) {
+    if (reading.of != gauge) continue;
+    sum += reading.range();
+    largest = std::max(largest, reading.range());
+    ++count;
+  }
+  if (count < 2) return std::nullopt;
+  return largest * count / sum;
+}
+
+std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::PlanetarySet& set,
+                                            const MeshResult& ring_mesh) {
+  const auto& csv = ring_mesh.gauges;
+  if (csv.rows.empty()) return std::nullopt;
+  const auto angle = csv.column("ring_angle_deg");
+  const auto rows = csv.rows.size();
+  const double first = csv.rows[0][angle] * units::deg, step = csv.rows[1][angle] * units::deg - first;
+  const double turn = 2 * std::numbers::pi;
+  // Relative, of stresses in roots and on the rim: the strain is their multiple.
+  const auto error_of = [&](Place place) {
+    const auto stress = ring_mesh.largest_stress("ring", place == Place::root ? "root_von_mises" : "rim_von_mises");
+    return stress ? stress->error_relative : not_known;
+  };
+  GaugeReadings readings;
+  for (std::size_t i = 0; i < rows; ++i)
+    readings.angle.push_back(turn * static_cast<double>(i) / static_cast<double>(rows));
+  std::size_t number = 0;
+  for (std::size_t g = 0; g < scene.strain_gauges.size(); ++g) {
+    const auto& input = scene.strain_gauges[g];
+    if (input.ring && *input.ring != ring_mesh.model.ring) continue;
+    for (const double position : positions_of(input)) {
+      std::vector<double> alone(rows);
+      const auto column = csv.column(fmt::format("gauge_{}_um_per_m", ++number));
+      for (std::size_t i = 0; i < rows; ++i) alone[i] = csv.rows[i][column] * micro;
+      const PeriodicCurve curve(alone, static_cast<int>(rows));
+      GaugeReading reading{name_at(input, position), g, {}};
+      for (const double carrier : readings.angle) {
+        double sum = 0;
+        for (int n = 0; n < set.planets(); ++n)
+          sum += curve((carrier + set.planet_angle(n) - first) / (step * static_cast<double>(rows)));
+        reading.strain.push_back(sum);
+      }
+      const auto [low, high] = std::minmax_element(reading.strain.begin(), reading.strain.end());
+      reading.smallest = *low;
+      reading.largest = *high;
+      reading.error = error_of(input.place) * std::max(std::abs(*low), std::abs(*high));
+      readings.gauges.push_back(std::move(reading));
+    }
+  }
+  return readings;
+}
+
+Csv to_csv(const GaugeReadings& readings) {
+  Csv csv{.header = {}, .columns = {"planet_1_angle_deg"}, .rows = {}};
+  for (std::size_t g = 0; g < readings.gauges.size(); ++g) {
+    csv.header.emplace_back(fmt::format("gauge_{}", g + 1), readings.gauges[g].gauge);
+    csv.columns.push_back(fmt::format("gauge_{}_um_per_m", g + 1));
+  }
+  for (std::size_t i = 0; i < readings.angle.size(); ++i) {
+    auto& row = csv.rows.emplace_back(1, readings.angle[i] / units::deg);
+    for (const auto& gauge : readings.gauges) row.push_back(gauge.strain[i] / micro);
+  }
+  csv.round();
+  return csv;
+}
+
+Json to_json(const Scene& scene, const GaugeReadings& readings) {
+  Json list = Json::array();
+  for (const auto& gauge : readings.gauges)
+    list.push_back({{"gauge", gauge.gauge},
+                    {"largest_strain", json_number(gauge.largest)},
+                    {"smallest_strain", json_number(gauge.smallest)},
+                    {"error", json_number(gauge.error)}});
+  Json factors = Json::object();
+  for (std::size_t g = 0; g < scene.strain_gauges.size(); ++g)
+    if (const auto factor = readings.face_load_factor(g)) factors[scene.strain_gauges[g].name] = json_number(*factor);
+  Json json = {{"gauges", std::move(list)}};
+  if (!factors.empty()) json["face_load_factor"] = std::move(factors);
+  return json;
+}
+
+}  // namespace annulus::app
