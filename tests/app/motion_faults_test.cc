@@ -86,6 +86,15 @@ BOOST_AUTO_TEST_CASE(rough_motions_cover_accurate_ones) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(planets_that_move_alike_to_rounding_are_periodic) {
+  FaultRuns runs("periodic_called_irregular");
+  const auto outcome = runs.run("out");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  const auto ring = runs.ring("out");
+  BOOST_TEST(ring.at("poincare").at("section") == "period_1");
+  BOOST_TEST(ring.at("poincare").at("clusters") == 1);
+}
+
 BOOST_AUTO_TEST_CASE(lost_energy_tightens_the_tolerance) {
   FaultRuns runs("energy_lost");
   const auto outcome = runs.run("out");

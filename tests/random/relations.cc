@@ -202,6 +202,85 @@ SceneDraft in_a_mirror(const RandomScene& scene) {
   return mirrored;
 }
 
+/// Counted from the next planet on, in a set whose planets are all in phase.
+Relation relabelled() {
+  return {
+      "planets counted from the next one", Agreement::rounding,
+      [](const RandomScene& scene) -> std::optional<RunPair> {
+        auto draft = scene.draft;
+        if (draft.text_of("stage.kind") != "planetary" || draft.find("stage.planet_angles_deg") != nullptr)
+          return std::nullopt;
+        const auto planets = static_cast<long>(draft.number("stage.planets"));
+        const auto fits = [&](const char* key) {
+          return draft.find(key) == nullptr || static_cast<long>(draft.number(key)) % planets == 0;
+        };
+        if (planets < 2 || draft.find("ring.pin_angles_deg") != nullptr) return std::nullopt;
+        for (const auto* key : {"sun.teeth", "ring.teeth", "ring.pins", "ring.splines", "ring.bolts", "ring.dowels"})
+          if (!fits(key)) return std::nullopt;
+        bool changed = false;
+        const double turn = -360.0 / static_cast<double>(planets);
+        for (const auto& t : app::schema(scene.kind))
+          for (const auto& p : t.parameters) {
+            const auto* value = draft.find(p.key());
+            if (value == nullptr) continue;
+            if (const auto* list = std::get_if<std::vector<double>>(value);
+                list && p.name.starts_with("planet_") && static_cast<long>(list->size()) == planets) {
+              auto values = *list;
+              std::rotate(values.begin(), values.begin() + 1, values.end());
+              draft.set(p.key(), values);
+              changed = true;
+            } else if (t.path == "errors" && p.name.ends_with("_phase_deg")) {
+              // Those of the other bodies are measured from the first planet.
+              draft.set(p.key(), std::remainder(draft.number(p.key()) + turn, 360.0));
+            }
+          }
+        if (!changed) return std::nullopt;
+        return RunPair{cheap(scene.draft, scene), cheap(draft, scene)};
+      },
+      same};
+}
+
+/// Whether a ring stands on pins that touch as soon as they are pressed.
+bool on_pins_without_play(const SceneDraft& draft) {
+  if (draft.text_of("ring.structure") != "pinned" || draft.has_table("mesh.ring_planet")) return false;
+  for (const auto* key : {"ring.pin_clearance_um", "ring.housing_clearance_um"})
+    if (draft.find(key) != nullptr && draft.number(key) > 0) return false;
+  return true;
+}
+
+std::optional<double> of_ring_stiffness(const std::string& key) {
+  if (key != "ring_planet_mean_stiffness_N_per_m") return std::nullopt;
+  return 1.0;
+}
+
+/// At one load the work of the load falls when supports get stiffer.
+Relation stiffer_pins() {
+  return {"pins four times as stiff", Agreement::not_less,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            auto stiffer = scene.draft;
+            if (!on_pins_without_play(stiffer) || stiffer.find("ring.pin_radial_stiffness_N_per_m") == nullptr)
+              return std::nullopt;
+            stiffer.scale("ring.pin_radial_stiffness_N_per_m", 4);
+            stiffer.scale("ring.pin_tangential_stiffness_N_per_m", 4);
+            return RunPair{cheap(scene.draft, scene), cheap(stiffer, scene)};
+          },
+          of_ring_stiffness};
+}
+
+/// Bolts are pins that pull as well.
+Relation bolts() {
+  return {"bolts instead of pins", Agreement::not_less,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            auto bolted = scene.draft;
+            if (!on_pins_without_play(bolted)) return std::nullopt;
+            bolted.remove("ring.pin_clearance_um");
+            bolted.remove("ring.housing_clearance_um");
+            bolted.set("ring.structure", std::string("bolted"));
+            return RunPair{cheap(scene.draft, scene), cheap(bolted, scene)};
+          },
+          of_ring_stiffness};
+}
+
 /// Driven the other way, the mirror image does the same.
 Relation turned_round() {
   return {"mirror image driven the other way", Agreement::rounding,
@@ -295,6 +374,9 @@ double allowed_difference(Agreement agreement, const StatedResult& first, const 
   switch (agreement) {
     case Agreement::identical:
       return 0;
+    case Agreement::not_less:
+      if (second.value >= first.value * factor) return std::numeric_limits<double>::infinity();
+      return first.numerical_error() * std::abs(factor) + second.numerical_error() + rounding * size + nothing;
     case Agreement::rounding:
       // A motion that is not periodic is known as well as its length lets it.
       return rounding_of(first.key) * size + nothing + first.motion_error * std::abs(factor) + second.motion_error;
@@ -315,9 +397,10 @@ double ComparedResult::effectivity() const {
 }
 
 const std::vector<Relation>& relations() {
-  static const std::vector<Relation> list = {accuracy(),      chosen_model(),  models(),      size(),   material(),
-                                             pins_by_a_gap(), pins_by_teeth(), listed_pins(), mirror(), turned_round(),
-                                             more_planets(),  reuse(),         threads()};
+  static const std::vector<Relation> list = {accuracy(),     chosen_model(),  models(),        size(),
+                                             material(),     pins_by_a_gap(), pins_by_teeth(), listed_pins(),
+                                             mirror(),       turned_round(),  more_planets(),  relabelled(),
+                                             stiffer_pins(), bolts(),         reuse(),         threads()};
   return list;
 }
 

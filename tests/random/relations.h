@@ -22,6 +22,7 @@ enum class Agreement {
   errors,            ///< the sum of their errors
   numerical_errors,  ///< that without the parts of the model
   rounding,          ///< `relation_rounding`, and the error of a motion
+  not_less,          ///< the second one is larger, or smaller by no more than the sum of the numerical errors
   identical,
 };
 /// Relative. The changes of the relations leave all numbers but for rounding; a result may amplify that a thousandfold
