@@ -12,23 +12,42 @@ namespace annulus {
 
 namespace {
 
-/// The table with every entry replaced by `change(entry, load index)`, from every `step`-th phase.
+/// Play that the lowest load has closed, m: where its tangent is more than twice its secant, and no contact of flanks
+/// stiffens as much. Its line meets no force there.
+double play_of(const StiffnessTable& table, int position, int phase) {
+  constexpr double stiffened = 2;
+  const auto& lowest = table.at(position, phase, 0);
+  if (lowest.stiffness_tangent <= stiffened * lowest.stiffness_secant) return 0;
+  return table.loads().front() * (1 / lowest.stiffness_secant - 1 / lowest.stiffness_tangent);
+}
+
+/// The table with every entry replaced by `change(entry, load index, play)`, from every `step`-th phase.
 template <class Change>
 StiffnessTable changed(const StiffnessTable& table, int step, Change change) {
   const int loads = static_cast<int>(table.loads().size());
   std::vector<StiffnessEntry> entries;
   for (int position = 0; position < table.positions(); ++position)
     for (int phase = 0; phase < table.phases(); phase += step)
-      for (int load = 0; load < loads; ++load) entries.push_back(change(table.at(position, phase, load), load));
+      for (int load = 0; load < loads; ++load)
+        entries.push_back(change(table.at(position, phase, load), load, play_of(table, position, phase)));
   StiffnessTable result(table.mesh(), table.phases() / step, table.ring_angles(), table.loads(), std::move(entries));
   result.provenance = table.provenance;
   return result;
 }
 
-StiffnessEntry scaled(StiffnessEntry e, double factor) {
-  e.stiffness_secant *= factor;
+enum class Way { stiffer, softer };
+
+/// The elastic part of the deflection changes by its error, play stays: what the model leaves out of the stiffness it
+/// leaves out of that part, and all else that is uncertain of the deflection is in it.
+StiffnessEntry scaled(StiffnessEntry e, Way way, double play) {
+  const double deflection = e.lte - e.unloaded_te, elastic = deflection - play;
+  double error = e.error_relative;
+  if (play > 0) error = e.error_parts.model + (error - e.error_parts.model) * deflection / elastic;
+  // Dividing keeps the stiffness positive whatever the estimate.
+  const double factor = way == Way::stiffer ? 1 + error : 1 / (1 + error), changed = play + elastic / factor;
+  e.stiffness_secant *= play > 0 ? deflection / changed : factor;
   e.stiffness_tangent *= factor;
-  e.lte = e.unloaded_te + (e.lte - e.unloaded_te) / factor;
+  e.lte = e.unloaded_te + changed;
   return e;
 }
 
@@ -131,23 +150,21 @@ void need_even_phases(const StiffnessTable& table) {
 }  // namespace
 
 StiffnessTable stiffer(const StiffnessTable& table) {
-  return changed(table, 1, [](const StiffnessEntry& e, int) { return scaled(e, 1 + e.error_relative); });
+  return changed(table, 1, [](const StiffnessEntry& e, int, double play) { return scaled(e, Way::stiffer, play); });
 }
 
 StiffnessTable more_rippled(const StiffnessTable& table) {
   std::vector<double> mean;
   for (std::size_t load = 0; load < table.loads().size(); ++load)
     mean.push_back(mean_of(over_phases(table, static_cast<int>(load), &StiffnessEntry::stiffness_secant)));
-  return changed(table, 1, [&](const StiffnessEntry& e, int load) {
-    // Dividing keeps the stiffness positive whatever the estimate.
-    const double up = 1 + e.error_relative;
-    return scaled(e, e.stiffness_secant > mean[static_cast<std::size_t>(load)] ? up : 1 / up);
+  return changed(table, 1, [&](const StiffnessEntry& e, int load, double play) {
+    return scaled(e, e.stiffness_secant > mean[static_cast<std::size_t>(load)] ? Way::stiffer : Way::softer, play);
   });
 }
 
 StiffnessTable coarser(const StiffnessTable& table) {
   need_even_phases(table);
-  return changed(table, 2, [](const StiffnessEntry& e, int) { return e; });
+  return changed(table, 2, [](const StiffnessEntry& e, int, double) { return e; });
 }
 
 StiffnessTable through_odd_phases(const StiffnessTable& table) {

@@ -52,6 +52,32 @@ BOOST_AUTO_TEST_CASE(more_ripple_moves_both_ways_about_the_mean_of_each_load) {
   });
 }
 
+BOOST_AUTO_TEST_CASE(play_is_not_elastic) {
+  // 20 um of play before a linear stiffness, which the model leaves 3 % of out; 1 % of the deflection is uncertain too.
+  const double play = 20e-6, loads[] = {1e3, 2e3}, k[] = {1e9, 1.2e9};
+  std::vector<StiffnessEntry> entries;
+  for (int i = 0; i < 4; ++i) {
+    const double load = loads[i % 2], g = play + load / k[i / 2];
+    StiffnessEntry e{0, g, load / g, k[i / 2], 0.04};
+    e.error_parts.model = 0.03;
+    e.error_parts.discretisation = 0.01;
+    entries.push_back(e);
+  }
+  const StiffnessTable table("ring_planet", 2, {0.0}, {1e3, 2e3}, entries);
+  const auto changed = stiffer(table), rippled = more_rippled(table);
+  for (int phase = 0; phase < 2; ++phase)
+    for (int load = 0; load < 2; ++load) {
+      const auto &before = table.at(0, phase, load), &after = changed.at(0, phase, load);
+      const double elastic = before.lte - play, factor = 1 + 0.03 + 0.01 * before.lte / elastic;
+      BOOST_TEST(after.lte == play + elastic / factor, boost::test_tools::tolerance(1e-12));
+      BOOST_TEST(after.stiffness_secant * after.lte == loads[load], boost::test_tools::tolerance(1e-12));
+      BOOST_TEST(after.stiffness_tangent == before.stiffness_tangent * factor, boost::test_tools::tolerance(1e-12));
+      const double other = rippled.at(0, phase, load).lte;
+      BOOST_TEST(other == play + (phase == 1 ? elastic / factor : elastic * factor),
+                 boost::test_tools::tolerance(1e-12));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(coarser_keeps_every_second_phase) {
   const auto table = sample(), changed = coarser(table);
   BOOST_TEST(changed.phases() == 2);
