@@ -11,6 +11,18 @@ ANNULUS_MEMBERS(dynamics::ConstantStiffness, mean);
 ANNULUS_MEMBERS(dynamics::HarmonicStiffness, mean, ripple, phase_shift);
 ANNULUS_MEMBERS(dynamics::RectangularStiffness, mean, ripple, duty, phase_shift);
 
+template <>
+struct Members<PeriodicCurve> {
+  template <class Archive>
+  static void pass(Archive& archive, PeriodicCurve& curve) {
+    for (int piece = 0; piece < curve.pieces(); ++piece)
+      for (double c : curve.coefficients(piece)) annulus::pass(archive, c);
+    double period = curve.period();
+    annulus::pass(archive, period);
+  }
+};
+ANNULUS_MEMBERS(dynamics::ToothError, curve, phase_offset);
+
 /// The curves follow from a table, which is an input of its own (table_behind).
 template <>
 struct Members<dynamics::TableStiffness> {

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include "app/model/mesh_tables.h"
 #include "app/report/drawings/mesh.h"
 #include "app/results/content_id.h"
+#include "core/errors.h"
 #include "core/file_guard.h"
 #include "core/files.h"
 
@@ -254,10 +256,46 @@ MeshResult stiffness_alone(const MeshResult& mesh) {
           .table = mesh.table,
           .facts = mesh.facts,
           .coupling = mesh.coupling,
+          .shares = mesh.shares,
           .nominal = mesh.nominal,
           .tabulated = mesh.tabulated,
           .reused = mesh.reused};
 }
+
+namespace {
+
+PairShares shares_of(const MeshModel& model, const fem::LoadedMeshResult& solved) {
+  const auto& pair = model.problem->pair;
+  const double pitch = pair.pinion().base_pitch(), nominal = model.problem->loads[model.nominal_load()];
+  const double direction = pair.driver() == geometry::Driver::pinion ? 1 : -1;
+  PairShares shares;
+  shares.phases = solved.table.phases();
+  std::vector<std::map<int, double>> sums(static_cast<std::size_t>(shares.phases));
+  int last = 0;
+  for (const auto& p : solved.positions) {
+    if (p.load != nominal || p.mesh_phase >= 1) continue;
+    auto& at = sums.at(static_cast<std::size_t>(std::lround(p.mesh_phase * shares.phases)));
+    for (std::size_t i = 0; i < p.pair_share.size(); ++i) {
+      if (!(p.pair_share[i] > 0)) continue;
+      // Later pairs stand where the contact comes from.
+      const double behind = (pair.roll_length_pitch() - p.pair_roll.at(i)) / pitch * direction + p.mesh_phase;
+      const int later = static_cast<int>(std::lround(behind));
+      at[later] += p.pair_share[i];
+      shares.first = std::min(shares.first, later);
+      last = std::max(last, later);
+    }
+  }
+  for (const auto& at : sums) {
+    double sum = 0;
+    for (const auto& [later, share] : at) sum += share;
+    require(sum > 0, fmt::format("the tooth pairs of the {} carry nothing at a position", model.label()));
+    auto& list = shares.share.emplace_back(static_cast<std::size_t>(last - shares.first + 1), 0.0);
+    for (const auto& [later, share] : at) list[static_cast<std::size_t>(later - shares.first)] = share / sum;
+  }
+  return shares;
+}
+
+}  // namespace
 
 MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   MeshResult result{.model = model,
@@ -271,6 +309,7 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
                     .stress = stress_table(model, solved),
                     .gauges = gauge_table(solved),
                     .facts = facts_of(model, solved),
+                    .shares = shares_of(model, solved),
                     .nominal = model.nominal_load()};
   const std::vector<std::string> keys = {"load_N", "mesh_phase"};  // by which rows are found
   result.positions.round(keys);

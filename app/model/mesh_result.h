@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/plan/mesh_model.h"
 #include "app/report/drawings/deformed_mesh.h"
@@ -37,6 +38,14 @@ struct Peak {
   PositionKey at;
 };
 
+/// How the tooth pairs of a mesh share its load over the mesh cycle, at the nominal load: the mean over all ring
+/// positions.
+struct PairShares {
+  int phases = 0;                            ///< 0: not known
+  int first = 0;                             ///< mesh cycles by which the first pair passes the pitch point later
+  std::vector<std::vector<double>> share{};  ///< [phase][pair]; those of each phase add up to 1
+};
+
 /// What is known about one mesh after its solve.
 struct MeshResult {
   MeshModel model;
@@ -57,6 +66,7 @@ struct MeshResult {
   std::map<std::string, double> facts{};
   /// Ring meshes: how those of all planets act on each other through the ring; null when that was not looked at.
   std::shared_ptr<const SolvedCoupling> coupling{};
+  PairShares shares{};      ///< none of prescribed stiffnesses
   std::size_t nominal = 0;  ///< index of the nominal load in the table
   /// Whether the lumped model reads the table; else the scene prescribes a stiffness, and the table shows it.
   bool tabulated = true;
@@ -101,15 +111,17 @@ void save(const MeshResult& result, const std::filesystem::path& folder);
 
 namespace annulus {
 
+ANNULUS_MEMBERS(app::PairShares, phases, first, share);
+
 /// Without the model, the coupling and how it was found, which its reader knows.
 template <>
 struct Members<app::MeshResult> {
   template <class Value>
   static auto of(Value& value) {
     auto& [model, contact_ratio, table, positions, housing, pins, pressure, line_load, stress, gauges, picture, fields,
-           bodies, facts, coupling, nominal, tabulated, reused] = value;
+           bodies, facts, coupling, shares, nominal, tabulated, reused] = value;
     return std::tie(contact_ratio, table, positions, housing, pins, pressure, line_load, stress, gauges, picture,
-                    fields, bodies, facts, nominal, tabulated);
+                    fields, bodies, facts, shares, nominal, tabulated);
   }
 };
 

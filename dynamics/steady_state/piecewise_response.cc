@@ -243,6 +243,7 @@ std::string why_not_piecewise(const LumpedSystem& system, double period) {
     const bool wave = std::holds_alternative<RectangularStiffness>(mesh.excitation);
     if (!wave && !std::holds_alternative<ConstantStiffness>(mesh.excitation))
       return "the stiffness of " + mesh.name + " changes continuously";
+    if (!mesh.tooth_errors.empty()) return "the error of " + mesh.name + " changes from tooth to tooth";
     if (wave && !whole_number(mesh.frequency * period)) return "the stiffness of " + mesh.name + " does not repeat";
     for (const auto& e : mesh.errors)
       if (e.amount != 0 && !whole_number(e.rate * period / (2 * std::numbers::pi)))

@@ -38,6 +38,7 @@ struct MeshElement {
   std::optional<double> half_backlash;  ///< m
   bool damping_without_contact = false;
   std::vector<HarmonicError> errors;
+  std::vector<ToothError> tooth_errors;
   std::vector<MovingShare> moving;  ///< at most one per DOF
 };
 

@@ -30,6 +30,7 @@ struct CompiledMesh {
   double frequency = 0, phase_offset = 0;  ///< the phase shift of the excitation included
   double constant_error = 0;
   int first_error = 0, last_error = 0;    ///< of Compiled::errors
+  int first_tooth = 0, last_tooth = 0;    ///< of Compiled::tooth_errors
   int first_moving = 0, last_moving = 0;  ///< of Compiled::moving
   bool coupled = false;
   SlotTerm ripple;
@@ -38,6 +39,11 @@ struct CompiledMesh {
   const ForceSurface* surface = nullptr;
   bool mirrored = false;  ///< back flanks read the table at `back_flank_phase` less the phase
   double back_flank_phase = 0;
+};
+
+struct CompiledToothError {
+  const CurveBundle* curve = nullptr;  ///< of one curve
+  double phase_offset = 0;
 };
 
 struct CompiledShare {
@@ -85,6 +91,7 @@ struct LumpedSystem::Compiled {
   FlatRows b, inverse_b;         ///< b and M^-1 b per mesh
   std::vector<double> rates;     ///< rad/s, one per slot
   std::vector<SlotTerm> errors;
+  std::vector<CompiledToothError> tooth_errors;
   std::vector<CompiledMesh> meshes;
   std::vector<CompiledShare> moving;  ///< in the order of the meshes
   std::vector<int> moving_dofs;       ///< each once

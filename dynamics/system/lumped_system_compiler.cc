@@ -124,6 +124,10 @@ void LumpedSystemCompiler::compile_errors(const MeshElement& mesh, CompiledMesh&
       c.errors.push_back(slot_term(c.rates, error));
   }
   m.last_error = static_cast<int>(c.errors.size());
+  m.first_tooth = static_cast<int>(c.tooth_errors.size());
+  for (const auto& error : mesh.tooth_errors)
+    c.tooth_errors.push_back({shared_bundle(c.bundles, CurveBundle({&error.curve})), error.phase_offset});
+  m.last_tooth = static_cast<int>(c.tooth_errors.size());
 }
 
 void LumpedSystemCompiler::compile_excitation(const MeshElement& mesh, CompiledMesh& m) {

@@ -55,6 +55,13 @@ struct HarmonicError {
   double amount = 0, rate = 0, phase = 0;
 };
 
+/// Part of the transmission error of a mesh that follows its teeth, m: the curve at `frequency` t + `phase_offset` mesh
+/// cycles.
+struct ToothError {
+  PeriodicCurve curve;
+  double phase_offset = 0;
+};
+
 enum class LoadDependence {
   nominal,  ///< linear with the secant stiffness at the nominal load
   table,    ///< the law of force over deflection that all loads of the table give

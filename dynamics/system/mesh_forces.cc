@@ -29,6 +29,12 @@ void LumpedSystem::evaluate_excitation(double t, Workspace& w) const {
       e += term.sine * w.sine[term.slot] + term.cosine * w.cosine[term.slot];
       rate += c.rates[term.slot] * (term.sine * w.cosine[term.slot] - term.cosine * w.sine[term.slot]);
     }
+    for (int i = mesh.first_tooth; i < mesh.last_tooth; ++i) {
+      double value = 0, slope = 0;
+      c.tooth_errors[i].curve->evaluate(mesh.frequency * t + c.tooth_errors[i].phase_offset, &value, &slope);
+      e += value;
+      rate += mesh.frequency * slope;
+    }
     switch (mesh.kind) {
       case CompiledMesh::Kind::constant:
         w.stiffness[m] = mesh.mean;

@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(the_cost_study_is_that_of_every_kind,
   BOOST_TEST(trade.variants.front().name == "torsional_pair");
   const auto& points = trade.variants.front().points;
   BOOST_TEST_REQUIRE(points.size() == 3U);
-  for (const auto& p : points) BOOST_TEST(p.failure == "", p.settings << ": " << p.failure);
+  for (const auto& p : points) BOOST_TEST_REQUIRE(p.failure == "", p.settings << ": " << p.failure);
   // A frequency follows the root of the stiffness.
   const auto& stiff = points.front();
   const double stiffness = stiff.find("pinion_wheel_mean_stiffness_N_per_m")->value /

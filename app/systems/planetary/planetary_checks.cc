@@ -13,6 +13,7 @@
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_limits.h"
 #include "app/scene/scene_schema.h"
+#include "app/systems/planetary/pitch_deviations.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/power_flow.h"
@@ -50,6 +51,7 @@ class PlanetaryChecker : KeyChecks {
     rim_coupling();
     tolerances();
     check_strain_gauges(scene_, problems_);
+    check_pitch_deviations(scene_, problems_);
     check_power_flow(scene_, problems_);
   }
 

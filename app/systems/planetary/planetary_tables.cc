@@ -1,6 +1,7 @@
 #include <tuple>
 
 #include "app/scene/gear_tables.h"
+#include "app/systems/planetary/pitch_deviations.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "geometry/flank_tolerances.h"
@@ -133,6 +134,7 @@ Table planetary_errors_table() {
   errors.add(body_errors("sun", &ErrorInput::sun))
       .add(body_errors("ring", &ErrorInput::ring))
       .add(body_errors("carrier", &ErrorInput::carrier));
+  errors.add(pitch_deviation_keys());
   for (const auto& [mesh, member] :
        {std::pair{"sun", &ErrorInput::sun_planet_misalignment}, {"ring", &ErrorInput::ring_planet_misalignment}})
     errors

@@ -1,4 +1,5 @@
 #include "app/systems/planetary/power_flow.h"
+#include "app/systems/planetary/pitch_deviations.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -46,6 +47,7 @@ void mirror(Scene& scene) {
     gauge.offset = -gauge.offset;
   }
   auto& e = scene.errors;
+  mirror_pitch_deviations(scene);
   for (auto* phases : {&e.planet_eccentricity_phase, &e.planet_pin_position_phase})
     for (double& phase : *phases) phase = -phase;
   for (auto* body : {&e.sun, &e.ring, &e.carrier}) {

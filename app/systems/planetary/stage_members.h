@@ -14,10 +14,10 @@ ANNULUS_MEMBERS(dynamics::CentralBody, mass, inertia, radius, support, torsional
 ANNULUS_MEMBERS(dynamics::PlanetBody, mass, inertia, radius);
 ANNULUS_MEMBERS(dynamics::PlanetBearing, radial, tangential);
 ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bearings, planet_angles, planet_errors,
-                sun_working_angle, ring_working_angle, sun_teeth, planet_teeth, ring_teeth, sun_mesh, ring_mesh,
-                sun_phase_lag, ring_phase_lag, ring_tooth_offset, ring_coupling, sun_half_backlash, ring_half_backlash,
-                mesh_damping_ratio, support_damping_ratio, damping_without_contact, carrier_speed, ring_speed,
-                sun_torque, held, rotating_frame);
+                sun_tooth_errors, ring_tooth_errors, sun_working_angle, ring_working_angle, sun_teeth, planet_teeth,
+                ring_teeth, sun_mesh, ring_mesh, sun_phase_lag, ring_phase_lag, ring_tooth_offset, ring_coupling,
+                sun_half_backlash, ring_half_backlash, mesh_damping_ratio, support_damping_ratio,
+                damping_without_contact, carrier_speed, ring_speed, sun_torque, held, rotating_frame);
 
 ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
 ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_factor, mean_force, contact_loss,

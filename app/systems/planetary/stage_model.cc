@@ -3,6 +3,7 @@
 #include "app/model/excitation.h"
 #include "app/plan/accuracy_choice.h"
 #include "app/results/cached_value.h"
+#include "app/systems/planetary/pitch_deviations.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_members.h"
 #include "app/systems/planetary/stage_supports.h"
@@ -43,6 +44,7 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
     stage.planet_errors.push_back({{e.planet_eccentricity[n], e.planet_eccentricity_phase[n]},
                                    {e.planet_pin_position[n], e.planet_pin_position_phase[n]}});
   }
+  add_pitch_deviations(scene, set, sun_mesh, ring_mesh, stage);
   const auto dependence = scene.dynamics->load_dependence;
   stage.sun_mesh =
       excitation_of(scene.sun_planet, sun_mesh, point.mean_mesh_force, dependence, set.sun_mesh().back_flank_phase());

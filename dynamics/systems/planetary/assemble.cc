@@ -152,7 +152,8 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
 
   const auto mesh = [&](const std::string& name, LinearForm b, const MeshExcitation& excitation,
                         const CentralBody& wheel, std::optional<double> half_backlash, double phase,
-                        std::vector<HarmonicError> errors) {
+                        std::vector<HarmonicError> errors, const std::vector<std::vector<ToothError>>& tooth_errors,
+                        int planet) {
     MeshElement element;
     element.name = name;
     element.b = std::move(b);
@@ -164,6 +165,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
     element.half_backlash = half_backlash;
     element.damping_without_contact = stage.damping_without_contact;
     element.errors = std::move(errors);
+    if (!tooth_errors.empty()) element.tooth_errors = tooth_errors[static_cast<std::size_t>(planet)];
     return element;
   };
 
@@ -184,10 +186,11 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
                               std::cos(phi + ar) * (housing ? none : ring.y) + (-1.0) * p.u + std::sin(ar) * p.x +
                               (-std::cos(ar)) * p.y;
     builder.add_mesh(mesh("sun_planet" + number, sun_b, stage.sun_mesh, stage.sun, stage.sun_half_backlash,
-                          -value_or_zero(stage.sun_phase_lag, n), sun_mesh_errors(stage, n)));
+                          -value_or_zero(stage.sun_phase_lag, n), sun_mesh_errors(stage, n), stage.sun_tooth_errors,
+                          n));
     ring_meshes.push_back(mesh("ring_planet" + number, ring_b, stage.ring_mesh, stage.ring, stage.ring_half_backlash,
                                value_or_zero(stage.ring_tooth_offset, n) - value_or_zero(stage.ring_phase_lag, n),
-                               ring_mesh_errors(stage, n)));
+                               ring_mesh_errors(stage, n), stage.ring_tooth_errors, n));
     if (housing) ring_meshes.back().moving = ring_shares(stage, ring, ring_modes, phi + ar);
   }
   for (auto& element : ring_meshes) builder.add_mesh(std::move(element));

@@ -159,6 +159,10 @@ int PlanetaryStage::error_period() const {
   if (rolling_speed(*this) == 0) return period;
   const auto eccentric = [](const BodyErrors& e) { return e.eccentricity.exists(); };
   if (std::any_of(planet_errors.begin(), planet_errors.end(), eccentric)) period = common_period(period, planet_teeth);
+  for (const auto* errors : {&sun_tooth_errors, &ring_tooth_errors})
+    for (const auto& of_mesh : *errors)
+      for (const auto& error : of_mesh)
+        period = common_period(period, static_cast<int>(std::lround(error.curve.period())));
   if (sun.errors.eccentricity.exists()) period = common_period(period, sun_teeth);
   if (ring.errors.eccentricity.exists()) period = common_period(period, ring_teeth);
   if (sun.errors.position.exists() || ring.errors.position.exists() || carrier.errors.position.exists())
@@ -186,6 +190,8 @@ void PlanetaryStage::check() const {
   };
   if (planet_bearings.size() != 1) per_planet(planet_bearings.size(), "planet bearings");
   per_planet(planet_errors.size(), "planet errors");
+  per_planet(sun_tooth_errors.size(), "tooth errors of the sun meshes");
+  per_planet(ring_tooth_errors.size(), "tooth errors of the ring meshes");
   per_planet(sun_phase_lag.size(), "sun mesh phase");
   per_planet(ring_phase_lag.size(), "ring mesh phase");
   per_planet(ring_tooth_offset.size(), "ring tooth offset");

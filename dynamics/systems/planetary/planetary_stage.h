@@ -76,8 +76,10 @@ struct PlanetaryStage {
   std::vector<double> planet_angles;           ///< phi_n, rad, one per planet, counter-clockwise
   std::vector<PlanetBearing> planet_bearings;  ///< empty: rigid; one: that of every planet; or one per planet
   std::vector<BodyErrors> planet_errors;       ///< empty: none; otherwise one per planet
-  double sun_working_angle = 0;                ///< a_s, rad
-  double ring_working_angle = 0;               ///< a_r, rad
+  /// Errors of the meshes that follow their teeth, of the sun and the ring mesh of every planet; empty: none.
+  std::vector<std::vector<ToothError>> sun_tooth_errors, ring_tooth_errors;
+  double sun_working_angle = 0;   ///< a_s, rad
+  double ring_working_angle = 0;  ///< a_r, rad
   int sun_teeth = 0, planet_teeth = 0, ring_teeth = 0;
 
   MeshExcitation sun_mesh, ring_mesh;
@@ -128,7 +130,7 @@ struct PlanetaryStage {
   /// Mesh cycles after which excitation and errors repeat. It is the least common multiple of z_p (planet
   /// eccentricities), z_s (sun eccentricity), z_r (ring eccentricity, modes of the ring), of the cycles in which the
   /// housing turns past the carrier (position errors of central bodies; z_r where the ring is held) and the periods of
-  /// tables and coupling. `never_repeats` where the speeds of a differential have no such multiple.
+  /// tables, tooth errors and coupling. `never_repeats` where the speeds of a differential have no such multiple.
   [[nodiscard]] int error_period() const;
   static constexpr int never_repeats = 1 << 30;
 

@@ -1,0 +1,194 @@
+#include "app/systems/planetary/pitch_deviations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "app/scene/scene_declare.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr const char *sun_key = "errors.sun_pitch_deviations_um", *planet_key = "errors.planet_pitch_deviations_um",
+                     *ring_key = "errors.ring_pitch_deviations_um";
+
+std::size_t number(std::ptrdiff_t tooth, std::size_t teeth) {
+  const auto n = static_cast<std::ptrdiff_t>(teeth);
+  return static_cast<std::size_t>(((tooth % n) + n) % n);
+}
+
+/// Places of the teeth, m, counter-clockwise of equal ones on the average; from the distances to the teeth before.
+std::vector<double> places(const std::vector<double>& pitch) {
+  std::vector<double> list(pitch.size());
+  std::partial_sum(pitch.begin(), pitch.end(), list.begin());
+  const double mean = std::accumulate(list.begin(), list.end(), 0.0) / static_cast<double>(list.size());
+  for (double& place : list) place -= mean;
+  return list;
+}
+
+/// Along the base circle.
+double on_base(const geometry::Gear& gear) { return gear.base_radius() / gear.reference_radius(); }
+
+class PitchChecks : KeyChecks {
+ public:
+  using KeyChecks::KeyChecks;
+
+  void run() {
+    const auto& e = scene_.errors;
+    if (usable("sun.teeth")) list(sun_key, e.sun_pitch, scene_.sun.teeth, 1);
+    if (usable("planet.teeth") && usable("stage.planets"))
+      list(planet_key, e.planet_pitch, scene_.planet.teeth, scene_.stage.planets);
+    for (const auto& ring : scene_.rings)
+      if (usable("ring.teeth", ring.name)) list(ring_key, e.ring_pitch, ring.teeth, 1);
+  }
+
+ private:
+  void list(const char* key, const std::vector<double>& values, int teeth, int gears) {
+    if (!given(key) || !usable(key) || values.empty()) return;
+    const auto one = static_cast<std::size_t>(teeth), all = one * static_cast<std::size_t>(gears);
+    if (values.size() != one && values.size() != all)
+      return problem(key, gears > 1
+                              ? fmt::format("needs one value per tooth, for one planet that stands for all ({}) or "
+                                            "for each of them ({}), not {}",
+                                            one, all, values.size())
+                              : fmt::format("needs one value per tooth: {} values for {} teeth", values.size(), one));
+    // A tenth of a micrometre per tooth is what lists of that resolution leave.
+    constexpr double rounding = 0.1 * units::um;
+    for (std::size_t first = 0; first < values.size(); first += one) {
+      const double sum = std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(first),
+                                         values.begin() + static_cast<std::ptrdiff_t>(first + one), 0.0);
+      if (std::abs(sum) > rounding * static_cast<double>(one))
+        return problem(key,
+                       fmt::format("the deviations of a gear add up to {:.4g} µm; around the circle they must add up "
+                                   "to 0",
+                                   sum / units::um));
+    }
+  }
+};
+
+/// The list of one planet.
+std::vector<double> of_planet(const std::vector<double>& all, int teeth, int planet) {
+  const auto one = static_cast<std::size_t>(teeth);
+  const auto first = all.size() == one ? 0 : one * static_cast<std::size_t>(planet);
+  return {all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(first + one)};
+}
+
+/// Whole and broken mesh cycles between the contacts of a planet's tooth with sun and ring.
+double cycles_from_sun_to_ring(const geometry::PlanetarySet& set) {
+  const auto& planet = set.planet();
+  const double turn =
+      std::numbers::pi -
+      planet.tooth_half_angle(planet.base_radius() / std::cos(set.sun_mesh().working_pressure_angle())) -
+      planet.tooth_half_angle(planet.base_radius() / std::cos(set.ring_mesh().working_pressure_angle()));
+  return planet.teeth() * turn / (2 * std::numbers::pi);
+}
+
+}  // namespace
+
+Table pitch_deviation_keys() {
+  Declarations errors("errors", "", &Scene::errors);
+  const std::string meaning =
+      ": distance of each tooth from the one before, counted counter-clockwise, less the pitch, on the reference "
+      "circle. "
+      "Tooth 1 ";
+  for (const auto& [key, member, whose, first] :
+       {std::tuple{"sun", &ErrorInput::sun_pitch, "sun", "meets planet 1 at time 0."},
+        {"planet", &ErrorInput::planet_pitch, "planets, for one that stands for all or for each of them in turn",
+         "meets the sun at time 0."},
+        {"ring", &ErrorInput::ring_pitch, "ring", "meets planet 1 at time 0."}})
+    errors
+        .key(std::string(key) + "_pitch_deviations_um", member,
+             std::string("Single pitch deviations of the ") + whose + meaning + first)
+        .absent("equal teeth")
+        .from(-1000, 1000)
+        .longest(20000)
+        .not_empty("deviation")
+        .only_if(is(std::string("mesh.") + (std::string(key) == "ring" ? "ring" : "sun") + "_planet.stiffness",
+                    {"computed"}),
+                 "a prescribed stiffness does not tell how tooth pairs share the load")
+        .only_if(given("[dynamics]"), "the lumped model has the errors of single teeth");
+  return errors.done();
+}
+
+void check_pitch_deviations(Scene& scene, std::vector<Problem>& problems) { PitchChecks(scene, problems).run(); }
+
+void mirror_pitch_deviations(Scene& scene) {
+  const auto turned = [](const std::vector<double>& pitch) {
+    std::vector<double> list(pitch.size());
+    for (std::size_t i = 0; i < pitch.size(); ++i)
+      list[i] = pitch[number(1 - static_cast<std::ptrdiff_t>(i), pitch.size())];
+    return list;
+  };
+  auto& e = scene.errors;
+  e.sun_pitch = turned(e.sun_pitch);
+  e.ring_pitch = turned(e.ring_pitch);
+  const auto teeth = static_cast<std::size_t>(scene.planet.teeth);
+  if (teeth == 0 || e.planet_pitch.size() % teeth != 0) return;  // reported elsewhere
+  std::vector<double> planets;
+  for (std::size_t first = 0; first < e.planet_pitch.size(); first += teeth) {
+    const auto begin = e.planet_pitch.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto one = turned({begin, begin + static_cast<std::ptrdiff_t>(teeth)});
+    planets.insert(planets.end(), one.begin(), one.end());
+  }
+  e.planet_pitch = std::move(planets);
+}
+
+PeriodicCurve error_of_gaps(const std::vector<double>& gaps, const PairShares& shares) {
+  std::vector<double> values;
+  for (std::size_t cycle = 0; cycle < gaps.size(); ++cycle)
+    for (const auto& share : shares.share) {
+      double sum = 0;
+      for (std::size_t i = 0; i < share.size(); ++i)
+        sum += share[i] * gaps[number(static_cast<std::ptrdiff_t>(cycle + i) + shares.first, gaps.size())];
+      values.push_back(sum);
+    }
+  return {values, shares.phases};
+}
+
+void add_pitch_deviations(const Scene& scene, const geometry::PlanetarySet& set, const MeshResult& sun_mesh,
+                          const MeshResult& ring_mesh, dynamics::PlanetaryStage& stage) {
+  const auto& e = scene.errors;
+  if (e.sun_pitch.empty() && e.planet_pitch.empty() && e.ring_pitch.empty()) return;
+  const auto planets = static_cast<std::size_t>(set.planets());
+  stage.sun_tooth_errors.resize(planets);
+  stage.ring_tooth_errors.resize(planets);
+  // Before a mesh is solved, as the plan sees it: one pair after the other.
+  const PairShares one_pair{1, 0, {{1}}};
+  const auto& of_sun = sun_mesh.shares.phases > 0 ? sun_mesh.shares : one_pair;
+  const auto& of_ring = ring_mesh.shares.phases > 0 ? ring_mesh.shares : one_pair;
+  // A tooth that is ahead counter-clockwise closes the gap where its leading flank carries, and opens it at the
+  // planet's flank on the ring. Towards planets, at the pitch point, teeth of the sun pass clockwise, all others the
+  // other way.
+  const auto gaps = [&](const std::vector<double>& pitch, const geometry::Gear& gear, double sign, int direction) {
+    const auto place = places(pitch);
+    std::vector<double> list(place.size());
+    for (std::size_t c = 0; c < list.size(); ++c)
+      list[c] = sign * on_base(gear) * place[number(direction * static_cast<std::ptrdiff_t>(c), place.size())];
+    return list;
+  };
+  const double half_turn = cycles_from_sun_to_ring(set);
+  for (int n = 0; n < set.planets(); ++n) {
+    auto &sun = stage.sun_tooth_errors[static_cast<std::size_t>(n)],
+         &ring = stage.ring_tooth_errors[static_cast<std::size_t>(n)];
+    if (!e.sun_pitch.empty())
+      sun.push_back({error_of_gaps(gaps(e.sun_pitch, set.sun(), -1, -1), of_sun),
+                     -set.sun().teeth() * set.planet_angle(n) / (2 * std::numbers::pi)});
+    if (!e.planet_pitch.empty()) {
+      const auto pitch = of_planet(e.planet_pitch, scene.planet.teeth, n);
+      sun.push_back({error_of_gaps(gaps(pitch, set.planet(), -1, 1), of_sun), -set.sun_phase_lag(n)});
+      // The same tooth, as near to this as the phase of the ring mesh lets it be.
+      const double lag = set.sun_phase_lag(n) + half_turn, whole = std::round(lag - set.ring_phase_lag(n));
+      ring.push_back({error_of_gaps(gaps(pitch, set.planet(), 1, 1), of_ring), -set.ring_phase_lag(n) - whole});
+    }
+    if (!e.ring_pitch.empty())
+      ring.push_back({error_of_gaps(gaps(e.ring_pitch, set.ring(), -1, 1), of_ring),
+                      set.ring_tooth_offset(n) - set.ring_phase_lag(n)});
+  }
+}
+
+}  // namespace annulus::app
