@@ -147,6 +147,40 @@ BOOST_AUTO_TEST_CASE(such_teeth_share_the_load_as_an_eccentric_gear_does) {
   BOOST_TEST(teeth.quasi_static.value - 1 == gear.quasi_static.value - 1, boost::test_tools::tolerance(0.03));
 }
 
+// Teeth count the other way round in the mirror image, and the pitch before a tooth becomes the one behind it.
+BOOST_AUTO_TEST_CASE(the_mirror_image_driven_the_other_way_does_the_same) {
+  const test::TemporaryFolder folder("pitch_mirror");
+  log::set_level(log::Level::quiet);
+  const auto irregular = [](int teeth, double of) {
+    std::vector<double> places;
+    for (int i = 0; i < teeth; ++i) places.push_back(8e-6 * std::sin(of * i * i) + 5e-6 * std::cos(3 * i + of));
+    return places;
+  };
+  const auto mirrored = [](const std::vector<double>& places) {
+    std::vector<double> other;
+    for (std::size_t i = 0; i < places.size(); ++i) other.push_back(-places[(places.size() - i) % places.size()]);
+    return other;
+  };
+  const auto sun = irregular(24, 0.37), planet = irregular(24, 1.1), ring = irregular(72, 0.83);
+  const auto sharing = [&](bool turned_round) {
+    const auto shown = [&](const std::vector<double>& places) { return turned_round ? mirrored(places) : places; };
+    auto text = stage(list("sun_pitch_deviations_um", shown(sun)) + list("planet_pitch_deviations_um", shown(planet)) +
+                      list("ring_pitch_deviations_um", shown(ring)));
+    if (turned_round) text = test::replaced(text, "sun_speed_rpm = 1500", "sun_speed_rpm = -1500");
+    const auto result = app::run(app::parse_scene(text, "scene.toml"),
+                                 {.out = folder.path() / (turned_round ? "mirrored" : "as_drawn"), .threads = 1});
+    return result.rings.front().response->figures;
+  };
+  const auto one = sharing(false), other = sharing(true);
+  BOOST_TEST(one.sun_planet.load_sharing.averaged.value > 1.05);
+  for (const auto& [a, b] : {std::pair{&one.sun_planet, &other.sun_planet}, {&one.ring_planet, &other.ring_planet}}) {
+    // The steps of the time integration follow rounding.
+    BOOST_TEST(a->load_sharing.averaged.value == b->load_sharing.averaged.value, boost::test_tools::tolerance(1e-4));
+    BOOST_TEST(a->load_sharing.quasi_static.value == b->load_sharing.quasi_static.value,
+               boost::test_tools::tolerance(1e-6));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(errors_are_gaps_weighed_by_load_shares) {
   // Two pairs at phase 0, one at phase 0.5.
   app::PairShares shares{2, 0, {{0.7, 0.3}, {1, 0}}};

@@ -93,25 +93,22 @@ double cycles_from_sun_to_ring(const geometry::PlanetarySet& set) {
 Table pitch_deviation_keys() {
   Declarations errors("errors", "", &Scene::errors);
   const std::string meaning =
-      ": distance of each tooth from the one before, counted counter-clockwise, less the pitch, on the reference "
-      "circle. "
-      "Tooth 1 ";
-  for (const auto& [key, member, whose, first] :
-       {std::tuple{"sun", &ErrorInput::sun_pitch, "sun", "meets planet 1 at time 0."},
-        {"planet", &ErrorInput::planet_pitch, "planets, for one that stands for all or for each of them in turn",
-         "meets the sun at time 0."},
-        {"ring", &ErrorInput::ring_pitch, "ring", "meets planet 1 at time 0."}})
-    errors
-        .key(std::string(key) + "_pitch_deviations_um", member,
-             std::string("Single pitch deviations of the ") + whose + meaning + first)
-        .absent("equal teeth")
-        .from(-1000, 1000)
-        .longest(20000)
-        .not_empty("deviation")
-        .only_if(is(std::string("mesh.") + (std::string(key) == "ring" ? "ring" : "sun") + "_planet.stiffness",
-                    {"computed"}),
-                 "a prescribed stiffness does not tell how tooth pairs share the load")
-        .only_if(given("[dynamics]"), "the lumped model has the errors of single teeth");
+      ". The distance of each tooth from the one before, counted counter-clockwise, less the pitch, on the reference "
+      "circle. Tooth 1 ";
+  const auto declare = [&](const std::string& gear, std::vector<double> ErrorInput::*member, const std::string& whose,
+                           const std::string& first, const std::vector<const char*>& meshes) {
+    auto key =
+        errors.key(gear + "_pitch_deviations_um", member, "Single pitch deviations of the " + whose + meaning + first);
+    key.absent("equal teeth").from(-1000, 1000).longest(20000).not_empty("deviation");
+    key.only_if(given("[dynamics]"), "the lumped model has the errors of single teeth");
+    for (const auto* mesh : meshes)
+      key.only_if(is(std::string("mesh.") + mesh + ".stiffness", {"computed"}),
+                  "a prescribed stiffness does not tell how tooth pairs share the load");
+  };
+  declare("sun", &ErrorInput::sun_pitch, "sun", "meets planet 1 at time 0.", {"sun_planet"});
+  declare("planet", &ErrorInput::planet_pitch, "planets: for one that stands for all, or for each of them in turn",
+          "meets the sun at time 0.", {"sun_planet", "ring_planet"});
+  declare("ring", &ErrorInput::ring_pitch, "ring", "meets planet 1 at time 0.", {"ring_planet"});
   return errors.done();
 }
 
