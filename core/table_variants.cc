@@ -12,24 +12,32 @@ namespace annulus {
 
 namespace {
 
-/// Play that the lowest load has closed, m: where its tangent is more than twice its secant, and no contact of flanks
-/// stiffens as much. Its line meets no force there.
-double play_of(const StiffnessTable& table, int position, int phase) {
-  constexpr double stiffened = 2;
-  const auto& lowest = table.at(position, phase, 0);
-  if (lowest.stiffness_tangent <= stiffened * lowest.stiffness_secant) return 0;
-  return table.loads().front() * (1 / lowest.stiffness_secant - 1 / lowest.stiffness_tangent);
+/// Play that the lowest load has closed, m, of every position and phase: where all tangents there are more than four
+/// times the secants. Flanks that come into contact stiffen by half of that. The tangents meet no force at the play.
+std::vector<double> plays_of(const StiffnessTable& table) {
+  constexpr double stiffened = 4;
+  std::vector<double> plays;
+  for (int position = 0; position < table.positions(); ++position)
+    for (int phase = 0; phase < table.phases(); ++phase) {
+      const auto& lowest = table.at(position, phase, 0);
+      if (lowest.stiffness_tangent <= stiffened * lowest.stiffness_secant)
+        return std::vector<double>(static_cast<std::size_t>(table.positions() * table.phases()), 0.0);
+      plays.push_back(table.loads().front() * (1 / lowest.stiffness_secant - 1 / lowest.stiffness_tangent));
+    }
+  return plays;
 }
 
 /// The table with every entry replaced by `change(entry, load index, play)`, from every `step`-th phase.
 template <class Change>
 StiffnessTable changed(const StiffnessTable& table, int step, Change change) {
   const int loads = static_cast<int>(table.loads().size());
+  const auto plays = plays_of(table);
   std::vector<StiffnessEntry> entries;
   for (int position = 0; position < table.positions(); ++position)
     for (int phase = 0; phase < table.phases(); phase += step)
       for (int load = 0; load < loads; ++load)
-        entries.push_back(change(table.at(position, phase, load), load, play_of(table, position, phase)));
+        entries.push_back(change(table.at(position, phase, load), load,
+                                 plays[static_cast<std::size_t>(position * table.phases() + phase)]));
   StiffnessTable result(table.mesh(), table.phases() / step, table.ring_angles(), table.loads(), std::move(entries));
   result.provenance = table.provenance;
   return result;

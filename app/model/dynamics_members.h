@@ -11,14 +11,16 @@ ANNULUS_MEMBERS(dynamics::ConstantStiffness, mean);
 ANNULUS_MEMBERS(dynamics::HarmonicStiffness, mean, ripple, phase_shift);
 ANNULUS_MEMBERS(dynamics::RectangularStiffness, mean, ripple, duty, phase_shift);
 
+/// For identities alone: nothing is read back.
 template <>
 struct Members<PeriodicCurve> {
   template <class Archive>
   static void pass(Archive& archive, PeriodicCurve& curve) {
     for (int piece = 0; piece < curve.pieces(); ++piece)
       for (double c : curve.coefficients(piece)) annulus::pass(archive, c);
-    double period = curve.period();
+    double period = curve.period(), pieces = curve.pieces();
     annulus::pass(archive, period);
+    annulus::pass(archive, pieces);
   }
 };
 ANNULUS_MEMBERS(dynamics::ToothError, curve, phase_offset);

@@ -82,6 +82,11 @@ std::size_t parse_index(const std::string& path, const std::string& text, std::s
   return number - 1;
 }
 
+/// Lists that default to one value per planet; others have as many as teeth, pins or whatever they list.
+bool has_one_per_planet(const Parameter& p) {
+  return p.table == "errors" && p.presence == Parameter::Presence::defaulted;
+}
+
 }  // namespace
 
 InputTarget find_input(const Scene& scene, const std::string& path) {
@@ -94,7 +99,7 @@ InputTarget find_input(const Scene& scene, const std::string& path) {
   const bool is_list = target.parameter->kind == Parameter::Kind::reals;
   if (index && !is_list) throw InputError(path + ": is a single number, not a list");
   if (!is_list) return target;
-  const bool planets = target.parameter->table == "errors";
+  const bool planets = has_one_per_planet(*target.parameter);
   if (!index)
     throw InputError(fmt::format("{0}: is a list; name one value, as {0}[1]{1}", path, planets ? " for planet 1" : ""));
   for (const auto entry : target.entries()) {
@@ -102,6 +107,7 @@ InputTarget find_input(const Scene& scene, const std::string& path) {
     const auto* list = input ? std::get_if<std::vector<double>>(&input->value) : nullptr;
     if (list && (target.list.empty() || list->size() < target.list.size())) target.list = *list;
   }
+  if (!planets && target.list.empty()) throw InputError(path + ": this scene has no such list");
   if (planets && target.list.empty()) target.list.resize(static_cast<std::size_t>(scene.stage.planets));
   target.index = parse_index(path, *index, target.list.size(), planets ? ", the number of the planet" : "");
   return target;
@@ -121,7 +127,11 @@ std::vector<std::string> expand_planets(const Scene& scene, const std::string& p
   const auto [key, index] = split(path);
   if (index != "*") return {path};
   std::vector<std::string> paths;
-  for (int n = 1; n <= scene.stage.planets; ++n) paths.push_back(fmt::format("{}[{}]", key, n));
+  const auto* p = find_parameter(key);
+  const Input* input = p && !has_one_per_planet(*p) ? scene.find(key) : nullptr;
+  const auto* list = input ? std::get_if<std::vector<double>>(&input->value) : nullptr;
+  const auto count = list ? list->size() : static_cast<std::size_t>(scene.stage.planets);
+  for (std::size_t n = 1; n <= count; ++n) paths.push_back(fmt::format("{}[{}]", key, n));
   return paths;
 }
 

@@ -39,7 +39,8 @@ struct InputTarget {
 /// The present value in the unit of the key, of the given ring where it is a ring's; nothing when it has none.
 [[nodiscard]] std::optional<double> input_value(const Scene& scene, const InputTarget& target, std::size_t ring = 0);
 
-/// "errors.planet_pin_position_error_um[*]" as one path per planet, any other path as itself.
+/// "errors.planet_pin_position_error_um[*]" as one path per planet, other lists as one per value, any other path as
+/// itself.
 [[nodiscard]] std::vector<std::string> expand_planets(const Scene& scene, const std::string& path);
 
 /// The path as part of a file name: "supports.planet_N_per_m" -> "supports_planet_N_per_m".

@@ -25,7 +25,7 @@ std::vector<double> mean_weights(const std::vector<double>& at, double from, dou
   return weights;
 }
 
-/// Weights of the stations of an axis that interpolate at z.
+/// Weights of the stations of an axis that interpolate at z, which lies between them.
 std::vector<std::pair<int, double>> station_weights(const std::vector<double>& stations, double z) {
   const auto above = std::upper_bound(stations.begin(), stations.end(), z);
   if (above == stations.begin()) return {{0, 1.0}};
@@ -100,6 +100,14 @@ std::vector<GaugePart> gauge_parts(const WantedGauge& wanted, const GearBody& bo
   std::size_t first = 0;
   for (std::size_t p = 0; p < chain.pieces.size(); ++p) {
     const auto& [line, sector] = chain.pieces[p];
+    const double low = line->axial.front(),
+                 high = wanted.mirror_width > 0 ? wanted.mirror_width - low : line->axial.back();
+    const double rounding = 1e-9 * (high - low);
+    if (solid && (gauge.z < low - rounding || gauge.z > high + rounding))
+      throw InputError(
+          fmt::format("strain gauge '{}' stands {:.4g} mm from the low end of the common face, where the ring "
+                      "has no surface: it reaches from {:.4g} to {:.4g} mm",
+                      gauge.name, 1e3 * gauge.z, 1e3 * low, 1e3 * high));
     const double z = wanted.mirror_width > 0 ? std::min(gauge.z, wanted.mirror_width - gauge.z) : gauge.z;
     GaugePart part{sector, Eigen::VectorXd::Zero(loads)};
     for (int u = 0; u < line->points(); ++u) {

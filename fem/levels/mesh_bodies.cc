@@ -125,13 +125,15 @@ NotchFactors notch_of(const GearTasks& tasks, double poisson_ratio, int degree) 
   return tasks.fine ? notch_factors(tasks.fine->body, tasks.coarse->body, poisson_ratio, degree) : NotchFactors{};
 }
 
-/// A gauge in the frame of the solve, which is the mirror image of a real ring. `turn`: of its straight outside.
-StrainGauge in_solve(StrainGauge gauge, const LoadedMeshProblem& problem, double turn) {
+/// A gauge in the frame of the solve, which is the mirror image of a real ring. Gauges on the outside stand parallel to
+/// the axis, as pins do: a straight outside is turned as a whole, a helical one under each of them.
+StrainGauge in_solve(StrainGauge gauge, const LoadedMeshProblem& problem, const BodyPlan& plan) {
   if (problem.pair.internal()) {
     gauge.angle = -gauge.angle;
     gauge.offset = -gauge.offset;
   }
-  if (gauge.place == StrainGauge::Place::outside) gauge.angle += turn;
+  if (gauge.place == StrainGauge::Place::outside)
+    gauge.angle += plan.turn() != 0 ? plan.turn() : plan.profile().twist() * (problem.face_width / 2 - gauge.z);
   return gauge;
 }
 
@@ -160,7 +162,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   GearTasks planet = maker.make(planet_plan, {}), wheel = maker.make(wheel_plan, supports);
   std::vector<StrainGauge> gauges;
   for (const auto& gauge : problem.gauges) {
-    gauges.push_back(in_solve(gauge, problem, wheel_plan.turn()));
+    gauges.push_back(in_solve(gauge, problem, wheel_plan));
     wheel.body.options.gauges.push_back({gauges.back(), problem.materials.wheel, face.half ? face.width : 0});
     if (gauge.place != StrainGauge::Place::root) continue;
     StrainGauge hoop = gauges.back();

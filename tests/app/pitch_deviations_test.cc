@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "app/scene/overrides.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/stage_response.h"
+#include "app/systems/planetary/stage_warnings.h"
 #include "core/errors.h"
 #include "core/log.h"
 #include "core/units.h"
@@ -193,6 +196,19 @@ BOOST_AUTO_TEST_CASE(errors_are_gaps_weighed_by_load_shares) {
   const double deflection = (load + k[0] * g[0] + k[1] * g[1]) / (k[0] + k[1]);
   const auto of_both = app::error_of_gaps({g[0], g[1]}, {1, 0, {{0.7, 0.3}}});
   BOOST_TEST(of_both(0) == deflection - load / 1e9, boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(lists_of_teeth_are_not_lists_of_planets) {
+  const auto text = stage(list("sun_pitch_deviations_um", eccentric(24, 0)));
+  const auto scene = app::parse_scene(text, "scene.toml");
+  const auto paths = app::expand_planets(scene, "errors.sun_pitch_deviations_um[*]");
+  BOOST_TEST(paths.size() == 24U);
+  BOOST_TEST((app::find_input(scene, paths.back()).index == 23U));
+  BOOST_CHECK_THROW((void)app::find_input(scene, "errors.ring_pitch_deviations_um[1]"), InputError);
+  // Assemblies are drawn without them, and the user is told.
+  const auto drawn = app::parse_scene(text + "[tolerances]\nplanet_pin_position_um = 20\n", "scene.toml");
+  const auto warnings = app::stage_scene_warnings(drawn, app::make_geometry(drawn));
+  BOOST_TEST(std::any_of(warnings.begin(), warnings.end(), [](const auto& w) { return w.key == "pitch_deviations"; }));
 }
 
 BOOST_AUTO_TEST_CASE(lists_that_do_not_fit_are_refused) {

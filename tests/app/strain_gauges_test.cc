@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(the_strains_of_all_planets_add_up) {
     BOOST_TEST(readings.gauges[g].error < 0.5 * readings.gauges[g].range());
   }
   BOOST_TEST(!readings.face_load_factor(0));
-  const auto csv = app::to_csv(readings);
+  const auto csv = app::to_csv(readings, false);
   BOOST_TEST(csv.rows.size() == alone.rows.size());
   BOOST_TEST(csv.header_value("gauge_2").value() == "outside");
 }
@@ -114,9 +114,10 @@ BOOST_AUTO_TEST_CASE(gauges_choose_the_model) {
   auto plain = test::small_stage();
   plain = "accuracy = 0.1\n" + plain.substr(0, plain.find("[errors]"));
   BOOST_TEST(model(plain) == "closed_form");
-  BOOST_TEST(model(plain + gauge("a", "root", 0)) == "plane");
-  BOOST_TEST(model(plain + gauge("a", "root", 0, "axial_positions_mm = [-20, 20]\n")) == "solid");
-  BOOST_TEST(model(plain + gauge("a", "root", 0, "direction = \"axial\"\n")) == "solid");
+  BOOST_TEST(model(plain + gauge("a", "root", 2)) == "plane");
+  BOOST_TEST(model(plain + gauge("a", "root", 2, "axial_positions_mm = [-20, 20]\n")) == "solid");
+  BOOST_TEST(model(plain + gauge("a", "root", 2, "axial_positions_mm = [0]\n")) == "plane");
+  BOOST_TEST(model(plain + gauge("a", "root", 2, "direction = \"axial\"\n")) == "solid");
 }
 
 BOOST_AUTO_TEST_CASE(what_no_gauge_can_show_is_refused) {
@@ -128,12 +129,15 @@ BOOST_AUTO_TEST_CASE(what_no_gauge_can_show_is_refused) {
     const auto message = refusal(text);
     BOOST_TEST(message.find(words) != std::string::npos, message);
   };
+  says(with(gauge("a", "root", 45)), "is the middle of a tooth");
+  says(with(gauge("", "root", 2)), "not empty");
+  says("model = \"resolved\"\n" + with(gauge("a", "root", 2)), "no whole ring");
   says(with(gauge("a", "outside", 0)), "whose outside is fixed");
-  says(with(gauge("a", "root", 0, "ring = \"other\"\n")), "the name of no ring");
-  says(with(gauge("a", "root", 0) + gauge("a", "root", 9)), "more than one gauge");
-  says(with("[mesh.ring_planet]\nstiffness = \"constant\"\nmean_N_per_m = 1e9\n" + gauge("a", "root", 0)),
+  says(with(gauge("a", "root", 2, "ring = \"other\"\n")), "the name of no ring");
+  says(with(gauge("a", "root", 2) + gauge("a", "root", 8)), "more than one gauge");
+  says(with("[mesh.ring_planet]\nstiffness = \"constant\"\nmean_N_per_m = 1e9\n" + gauge("a", "root", 2)),
        "no ring that is strained");
-  says("model = \"plane\"\n" + with(gauge("a", "root", 0, "axial_positions_mm = [-20, 20]\n")),
+  says("model = \"plane\"\n" + with(gauge("a", "root", 2, "axial_positions_mm = [-20, 20]\n")),
        "strain gauges stand at places along the face width");
   says(bolted(gauge("a", "outside", 0, "offset_mm = 2\n")), "strain_gauge.offset_mm");
 }

@@ -264,6 +264,8 @@ BOOST_AUTO_TEST_CASE(what_has_no_place_is_refused) {
   BOOST_TEST(message(problem).find("does not lie in its root") != std::string::npos);
   problem.gauges = {root_gauge(0, 0, mm)};
   BOOST_TEST(message(problem, Fidelity::closed_form).find("whole body") != std::string::npos);
+  problem.gauges.front().z = 1.5 * problem.face_width;
+  BOOST_TEST(message(problem, Fidelity::solid).find("has no surface") != std::string::npos);
   problem.gauges.front().direction = StrainGauge::Direction::axial;
   BOOST_TEST(message(problem).find("along the axis") != std::string::npos);
 }

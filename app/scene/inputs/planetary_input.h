@@ -62,7 +62,6 @@ struct ToleranceInput {
   std::vector<double> torque_shares;
 };
 
-/// What the scene of a planetary stage has besides stage, material, errors and dynamics.
 /// A strain gauge on the ring, in its frame.
 struct StrainGaugeInput {
   std::string name;
@@ -73,6 +72,7 @@ struct StrainGaugeInput {
   std::vector<double> axial_positions;  ///< m, from the middle of the common face; empty: there
 };
 
+/// What the scene of a planetary stage has besides stage, material, errors and dynamics.
 struct PlanetaryInput {
   CarrierInput carrier;
   std::vector<RingInput> rings;

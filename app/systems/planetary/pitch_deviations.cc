@@ -22,8 +22,11 @@ std::size_t number(std::ptrdiff_t tooth, std::size_t teeth) {
   return static_cast<std::size_t>(((tooth % n) + n) % n);
 }
 
-/// Places of the teeth, m, counter-clockwise of equal ones on the average; from the distances to the teeth before.
-std::vector<double> places(const std::vector<double>& pitch) {
+/// Places of the teeth, m, counter-clockwise of equal ones on the average; from the distances to the teeth before. What
+/// rounding leaves of their sum is spread over all teeth.
+std::vector<double> places(std::vector<double> pitch) {
+  const double left = std::accumulate(pitch.begin(), pitch.end(), 0.0) / static_cast<double>(pitch.size());
+  for (double& p : pitch) p -= left;
   std::vector<double> list(pitch.size());
   std::partial_sum(pitch.begin(), pitch.end(), list.begin());
   const double mean = std::accumulate(list.begin(), list.end(), 0.0) / static_cast<double>(list.size());
@@ -57,8 +60,8 @@ class PitchChecks : KeyChecks {
                                             "for each of them ({}), not {}",
                                             one, all, values.size())
                               : fmt::format("needs one value per tooth: {} values for {} teeth", values.size(), one));
-    // A tenth of a micrometre per tooth is what lists of that resolution leave.
-    constexpr double rounding = 0.1 * units::um;
+    // Of values in tenths of a micrometre.
+    constexpr double rounding = 0.05 * units::um;
     for (std::size_t first = 0; first < values.size(); first += one) {
       const double sum = std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(first),
                                          values.begin() + static_cast<std::ptrdiff_t>(first + one), 0.0);

@@ -18,6 +18,7 @@
 #include "app/systems/planetary/stage_warnings.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/mesh_names.h"
+#include "core/file_guard.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
@@ -73,12 +74,20 @@ class PlanetarySystem final : public GearSystem {
   }
 
   void save_inputs(const SystemRun& run, const RunOptions& options) const override {
-    for (std::size_t i = 0; i < scene().rings.size(); ++i)
-      if (const auto readings = gauge_readings(scene(), geometry().rings[i].set, run.tables.at(i + 1))) {
-        auto csv = to_csv(*readings);
-        csv.header.insert(csv.header.begin(), {"annulus_version", version()});
-        csv.write(options.out / scene().rings[i].name / "strain_gauges.csv");
+    for (std::size_t i = 0; i < scene().rings.size(); ++i) {
+      const auto file = options.out / scene().rings[i].name / "strain_gauges.csv";
+      const auto& mesh = run.tables.at(i + 1);
+      const auto readings = gauge_readings(scene(), geometry().rings[i].set, mesh);
+      if (!readings) {
+        remove_file(file);
+        continue;
       }
+      auto csv = to_csv(*readings, geometry().operating_point.mirrored);
+      csv.header.insert(
+          csv.header.begin(),
+          {{"annulus_version", version()}, {"inputs_id", mesh.model.id()}, {"model", mesh.model.fidelity}});
+      csv.write(file);
+    }
   }
 
   [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t ring,

@@ -1,5 +1,4 @@
 #include "app/systems/planetary/power_flow.h"
-#include "app/systems/planetary/pitch_deviations.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,6 +7,7 @@
 #include <numbers>
 
 #include "app/scene/key_checks.h"
+#include "app/systems/planetary/pitch_deviations.h"
 #include "core/units.h"
 
 namespace annulus::app {

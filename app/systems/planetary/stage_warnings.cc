@@ -57,6 +57,11 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
                                   "rings equalise the planet loads; give a stiffness, or \"rigid\"",
                                   fmt::join(keys, ", "))});
   warn_of_gauges(list, scene);
+  const auto& e = scene.errors;
+  if (scene.tolerances && !(e.sun_pitch.empty() && e.planet_pitch.empty() && e.ring_pitch.empty()))
+    list.push_back({"pitch_deviations", Severity::warning,
+                    "the assemblies of [tolerances] have teeth without pitch deviations: those of [errors] are in all "
+                    "other results"});
   if (scene.tolerances && by_default(scene, "tolerances.distribution"))
     list.push_back({"distribution_assumed", Severity::note,
                     "deviations within the tolerances are drawn from a normal distribution, because the scene does not "

@@ -38,20 +38,48 @@ class GaugeChecks : KeyChecks {
   using KeyChecks::KeyChecks;
 
   void run() {
+    if (!scene_.strain_gauges.empty() &&
+        (scene_.fidelity == Fidelity::closed_form || scene_.fidelity == Fidelity::resolved))
+      problem("model",
+              "has no whole ring that gauges could stand on ([[strain_gauge]]); use \"automatic\", \"plane\" or "
+              "\"solid\"");
     for (std::size_t i = 0; i < scene_.strain_gauges.size(); ++i) {
       const auto& gauge = scene_.strain_gauges[i];
-      if (!usable("strain_gauge.name", i)) continue;
-      for (std::size_t j = 0; j < i; ++j)
-        if (scene_.strain_gauges[j].name == gauge.name)
-          problem("strain_gauge.name", i, "is the name of more than one gauge; each needs its own");
-      if (gauge.ring && std::none_of(scene_.rings.begin(), scene_.rings.end(),
-                                     [&](const auto& ring) { return ring.name == *gauge.ring; }))
+      if (usable("strain_gauge.name", i)) name(i, gauge.name);
+      const auto named = [&](const auto& ring) { return gauge.ring && ring.name == *gauge.ring; };
+      if (gauge.ring && std::none_of(scene_.rings.begin(), scene_.rings.end(), named))
         problem("strain_gauge.ring", i, "is the name of no ring (ring.name)");
-      if (gauge.place == Place::outside) outside(i, gauge);
+      if (!usable("strain_gauge.place", i) || !usable("strain_gauge.angle_deg", i)) continue;
+      if (gauge.place == Place::outside)
+        outside(i, gauge);
+      else
+        root(i, gauge);
     }
   }
 
  private:
+  void name(std::size_t i, const std::string& name) {
+    const auto printable = [](unsigned char c) { return c >= ' ' && c != 127; };
+    if (name.empty() || !std::all_of(name.begin(), name.end(), printable))
+      return problem("strain_gauge.name", i, "names a gauge in tables: not empty, without line breaks and tabs");
+    for (std::size_t j = 0; j < i; ++j)
+      if (scene_.strain_gauges[j].name == name)
+        return problem("strain_gauge.name", i, "is the name of more than one gauge; each needs its own");
+  }
+
+  void root(std::size_t i, const StrainGaugeInput& gauge) {
+    constexpr double clear = 0.01;  // of a pitch
+    for (const auto& ring : scene_.rings) {
+      if (!is_on(gauge, ring) || !usable("ring.teeth", ring.name)) continue;
+      const double teeth = gauge.angle * ring.teeth / (2 * std::numbers::pi);
+      if (std::abs(std::remainder(teeth, 1)) < clear)
+        problem("strain_gauge.angle_deg", i,
+                fmt::format("is the middle of a tooth of ring '{}', with a root on either side; add or subtract half a "
+                            "pitch ({:.6g} degrees)",
+                            ring.name, 180.0 / ring.teeth));
+    }
+  }
+
   void outside(std::size_t i, const StrainGaugeInput& gauge) {
     for (const auto& ring : scene_.rings)
       if (is_on(gauge, ring) && fem::held_outside(ring_structure(ring)))
@@ -99,11 +127,11 @@ Table strain_gauge_table() {
       .fallback("hoop", "as gauges for the load over the face width are placed");
   gauge
       .key("axial_positions_mm", &StrainGaugeInput::axial_positions,
-           "Distances from the middle of the common face, positive towards +z; a gauge at each of them. Several need "
-           "solid bodies and give K_Hβ as gauges measure it.")
+           "Distances from the middle of the common face, positive towards +z; a gauge at each of them. Places beside "
+           "the middle need solid bodies; several give K_Hβ as gauges measure it.")
       .absent("one gauge, in the middle of the face")
       .from(-1e5, 1e5)
-      .longest(64)
+      .longest(16)
       .not_empty("position")
       .distinct();
   return gauge.done();
@@ -128,7 +156,9 @@ std::vector<fem::StrainGauge> gauges_on(const Scene& scene, const RingInput& rin
 
 bool gauges_need_solid(const Scene& scene, const RingInput& ring) {
   return std::any_of(scene.strain_gauges.begin(), scene.strain_gauges.end(), [&](const auto& gauge) {
-    return is_on(gauge, ring) && (!gauge.axial_positions.empty() || gauge.direction == Direction::axial);
+    const auto& at = gauge.axial_positions;
+    const bool across = at.size() > 1 || (at.size() == 1 && at.front() != 0);
+    return is_on(gauge, ring) && (across || gauge.direction == Direction::axial);
   });
 }
 
@@ -200,8 +230,12 @@ std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::
   return readings;
 }
 
-Csv to_csv(const GaugeReadings& readings) {
-  Csv csv{.header = {}, .columns = {"planet_1_angle_deg"}, .rows = {}};
+Csv to_csv(const GaugeReadings& readings, bool mirrored) {
+  Csv csv{
+      .header = {{"frame", mirrored ? "mirror image of the stage, in which the torque of the sun is counter-clockwise"
+                                    : "that of the ring, counter-clockwise"}},
+      .columns = {"planet_1_angle_deg"},
+      .rows = {}};
   for (std::size_t g = 0; g < readings.gauges.size(); ++g) {
     csv.header.emplace_back(fmt::format("gauge_{}", g + 1), readings.gauges[g].gauge);
     csv.columns.push_back(fmt::format("gauge_{}_um_per_m", g + 1));

@@ -50,8 +50,8 @@ struct GaugeReadings {
 [[nodiscard]] std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::PlanetarySet& set,
                                                           const MeshResult& ring_mesh);
 
-/// strain_gauges.csv of a ring.
-[[nodiscard]] Csv to_csv(const GaugeReadings& readings);
+/// strain_gauges.csv of a ring. `mirrored`: of a stage that is computed as its mirror image.
+[[nodiscard]] Csv to_csv(const GaugeReadings& readings, bool mirrored);
 [[nodiscard]] Json to_json(const Scene& scene, const GaugeReadings& readings);
 
 }  // namespace annulus::app

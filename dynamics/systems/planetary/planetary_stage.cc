@@ -36,7 +36,8 @@ void check_central(const CentralBody& body, const std::string& name) {
 bool has_errors(const BodyErrors& errors) { return errors.eccentricity.exists() || errors.position.exists(); }
 
 bool any_errors(const PlanetaryStage& stage) {
-  return has_errors(stage.sun.errors) || has_errors(stage.ring.errors) || has_errors(stage.carrier.errors) ||
+  return !stage.sun_tooth_errors.empty() || !stage.ring_tooth_errors.empty() || has_errors(stage.sun.errors) ||
+         has_errors(stage.ring.errors) || has_errors(stage.carrier.errors) ||
          std::any_of(stage.planet_errors.begin(), stage.planet_errors.end(), has_errors);
 }
 
@@ -192,6 +193,12 @@ void PlanetaryStage::check() const {
   per_planet(planet_errors.size(), "planet errors");
   per_planet(sun_tooth_errors.size(), "tooth errors of the sun meshes");
   per_planet(ring_tooth_errors.size(), "tooth errors of the ring meshes");
+  for (const auto* errors : {&sun_tooth_errors, &ring_tooth_errors})
+    for (const auto& of_mesh : *errors)
+      for (const auto& error : of_mesh)
+        if (!(error.curve.period() >= 1) || !std::isfinite(error.phase_offset))
+          throw InputError(fmt::format("a tooth error repeats after {} mesh cycles from {} on: it needs at least one",
+                                       error.curve.period(), error.phase_offset));
   per_planet(sun_phase_lag.size(), "sun mesh phase");
   per_planet(ring_phase_lag.size(), "ring mesh phase");
   per_planet(ring_tooth_offset.size(), "ring tooth offset");

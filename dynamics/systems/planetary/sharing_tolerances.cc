@@ -56,6 +56,8 @@ PlanetaryStage at_share(PlanetaryStage stage, double share) {
 PlanetaryStage without_errors(PlanetaryStage stage) {
   stage.sun.errors = stage.ring.errors = stage.carrier.errors = {};
   stage.planet_errors.clear();
+  stage.sun_tooth_errors.clear();
+  stage.ring_tooth_errors.clear();
   return stage;
 }
 
