@@ -161,7 +161,7 @@ bool linear_first(const MeshModel& model) { return model.settings.degree == 1 &&
 /// Pictures of bodies, mostly of their elements, and time series; measured on eighty random scenes, within a factor
 /// of 2.
 double files_seconds(const std::vector<MeshModel>& meshes, const std::vector<PlannedResponse>& responses) {
-  constexpr double any = 0.01, of_elements = 0.22, of_formulas = 0.005, of_a_cycle = 2e-5;
+  constexpr double any = 0.003, of_elements = 0.22, of_formulas = 0.005, of_a_cycle = 2e-5;
   double seconds = any;
   for (const auto& model : meshes)
     if (model.computed()) seconds += model.has_elements() ? of_elements : of_formulas;

@@ -36,10 +36,10 @@ double periods_alive(const IntegratorChoice& choice, double relative_tolerance) 
   return std::min(periods, contacts * std::log(1 / relative_tolerance) / (2 * std::numbers::pi * choice.least_damping));
 }
 
-/// A stiffness that varies, however smoothly, keeps fast motions alive.
+/// A stiffness that varies, however smoothly, keeps the fast motion of a pair alive. Among many meshes it does not
+/// show.
 bool varies(const LumpedSystem& system) {
-  const auto is_constant = [](const auto& mesh) { return std::holds_alternative<ConstantStiffness>(mesh.excitation); };
-  return !std::all_of(system.meshes().begin(), system.meshes().end(), is_constant);
+  return system.meshes().size() == 1 && !std::holds_alternative<ConstantStiffness>(system.meshes().front().excitation);
 }
 
 /// Accurate steps of the explicit method and of the L-stable one per mesh cycle, chosen by the counted steps of some
@@ -47,12 +47,18 @@ bool varies(const LumpedSystem& system) {
 struct AccurateSteps {
   double explicit_method = 0, implicit_method = 0;
 };
-AccurateSteps accurate_steps(const LumpedSystem& system, const IntegratorChoice& choice, StiffnessCourse course,
-                             double relative_tolerance, double alive) {
+AccurateSteps accurate_steps(StiffnessCourse course, double relative_tolerance, double alive) {
   const double finer = std::pow(1e-5 / relative_tolerance, 1.0 / 5);
   if (course == StiffnessCourse::sudden) return {finer * (100 + 8 * alive), 400 * finer};
+  return {25 * finer, 190 * finer};
+}
+
+/// Of a smooth motion per mesh cycle: steps that are stable, and accurate where the stiffness keeps fast motions alive.
+double smooth_explicit_steps(const LumpedSystem& system, const IntegratorChoice& choice, double accurate,
+                             double relative_tolerance) {
   constexpr double than_stable = 1.6;
-  return {finer * std::max(25.0, varies(system) ? than_stable * choice.explicit_steps : 0.0), 190 * finer};
+  const double finer = std::pow(1e-5 / relative_tolerance, 1.0 / 5);
+  return std::max(accurate, choice.explicit_steps * (varies(system) ? std::max(1.0, than_stable * finer) : 1.0));
 }
 
 /// Is a motion that varies suddenly beyond the harmonic balance? With so few samples of a mesh cycle it misses tooth
@@ -77,7 +83,7 @@ double integration_seconds(const LumpedSystem& system, double mesh_frequency, do
   if (!std::isfinite(choice.explicit_steps)) return std::numeric_limits<double>::infinity();
   const auto method = options.method == Integrator::automatic ? choice.method : options.method;
   const double alive = periods_alive(choice, options.relative_tolerance);
-  const auto accurate = accurate_steps(system, choice, course, options.relative_tolerance, alive);
+  const auto accurate = accurate_steps(course, options.relative_tolerance, alive);
   switch (method) {
     case Integrator::runge_kutta_4:
       return cycles / (mesh_frequency * options.fixed_step) * 4 * evaluation;
@@ -95,8 +101,9 @@ double integration_seconds(const LumpedSystem& system, double mesh_frequency, do
   }
   // Accuracy follows the fastest motion while it is alive, stability always.
   const double died_out = choice.explicit_steps - explicit_steps_of_a_period * alive;
-  const double steps = course == StiffnessCourse::smooth ? std::max(accurate.explicit_method, choice.explicit_steps)
-                                                         : accurate.explicit_method + std::max(0.0, died_out);
+  const double steps = course == StiffnessCourse::smooth
+                           ? smooth_explicit_steps(system, choice, accurate.explicit_method, options.relative_tolerance)
+                           : accurate.explicit_method + std::max(0.0, died_out);
   // With those at events. Adams takes fewer, in steps that are far shorter where motions are excited.
   const double stages = method == Integrator::cvode_adams ? 25 : 7;
   return cycles * steps * stages * evaluation;
@@ -138,9 +145,9 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   // Jumps of constant stiffness are solved exactly.
   const bool balanced = course == StiffnessCourse::sudden && !jumps;
   const bool too_few = balanced && too_few_samples(samples, static_cast<int>(needed));
-  const bool misses = too_few || (balanced && std::isfinite(system.next_jump(0)));
-  const bool confirmed =
-      options.confirmation == Confirmation::always || (options.confirmation == Confirmation::where_needed && misses);
+  const bool jumps_between = balanced && std::isfinite(system.next_jump(0));
+  const bool confirmed = options.confirmation == Confirmation::always ||
+                         (options.confirmation == Confirmation::where_needed && jumps_between);
   const bool unresolved = confirmed && too_few;
   if (jumps && too_fast_for_piecewise(system, seconds, window))
     integrate(until_two_agree + 1, 0);
