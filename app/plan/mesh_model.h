@@ -56,9 +56,9 @@ struct GearMesh {
   std::optional<double> wheel_support_diameter{};  ///< m, bore of a wheel on a hub, outside of a ring
   fem::RingStructure structure{};                  ///< of a ring
   std::vector<fem::StrainGauge> gauges{};          ///< on a ring
-  bool gauges_across = false;                      ///< they tell places along the face width apart
-  double misalignment = 0;                         ///< m
-  double mean_force = 0;                           ///< N, of one mesh
+  bool gauges_across = false;  ///< they stand beside the middle of the face, or measure along the axis
+  double misalignment = 0;     ///< m
+  double mean_force = 0;       ///< N, of one mesh
 };
 [[nodiscard]] MeshModel mesh_model(const Scene& scene, const GearMesh& mesh);
 /// Why it needs a solid model: what changes along its face width. Empty when nothing does.

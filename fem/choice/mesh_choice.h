@@ -16,7 +16,7 @@ struct FaceFeatures {
   bool planet_lead_modified = false, wheel_lead_modified = false;
   double misalignment = 0;     ///< m
   bool beside = false;         ///< the middles of the faces are apart
-  bool gauges_across = false;  ///< strain gauges tell places along the face width apart
+  bool gauges_across = false;  ///< strain gauges stand beside the middle of the face, or measure along the axis
 };
 /// Why a mesh needs a solid model: what changes along its face width. Empty when nothing does.
 [[nodiscard]] std::string solid_reason(const RingStructure& structure, const FaceFeatures& features);

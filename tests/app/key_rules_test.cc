@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "tests/app/bad_scenes.h"
 #include "tests/app/scene_edit.h"
+#include "tests/app/scene_refusal.h"
 
 /// Rules between keys, on tables of the test's own and on those of the program.
 namespace annulus {
@@ -62,15 +63,6 @@ std::string the_only_message(const std::vector<app::Problem>& problems) {
 
 app::Input form_of(const char* value) { return written("shape.form", std::string(value)); }
 app::Input depth_of(double value) { return written("shape.depth_mm", value); }
-
-std::string first_refusal(const std::string& text) {
-  try {
-    (void)app::parse_scene(text, "scene.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 }  // namespace
 
@@ -240,20 +232,20 @@ BOOST_AUTO_TEST_CASE(earlier_names_are_refused_with_the_present_one) {
         for (const auto& old : p.old_names) {
           test::SceneEdit scene(good.text);
           (void)scene.set(table, old, "1");
-          const auto message = first_refusal(scene.text());
+          const auto message = test::scene_refusal(scene.text());
           BOOST_TEST(message.find(old + " = 1: is now `" + p.key() + "`") != std::string::npos, message);
           ++renamed;
         }
         for (const auto& choice : p.old_choices) {
           test::SceneEdit scene(good.text);
           (void)scene.set(table, p.name, '"' + choice.old_name + '"');
-          const auto message = first_refusal(scene.text());
+          const auto message = test::scene_refusal(scene.text());
           BOOST_TEST(message.find("is now \"" + choice.name + "\"") != std::string::npos, message);
           ++renamed;
         }
       }
   BOOST_TEST(renamed > 0);
-  const auto message = first_refusal(test::quick_scene() + "[assumed]\nerrors.sun_installation_um = \"x\"\n");
+  const auto message = test::scene_refusal(test::quick_scene() + "[assumed]\nerrors.sun_installation_um = \"x\"\n");
   BOOST_TEST(message.find("is now `errors.sun_position_error_um`") != std::string::npos, message);
   const auto scene = app::parse_scene(test::quick_scene(), "s");
   BOOST_CHECK_EXCEPTION(

@@ -19,6 +19,7 @@
 #include "core/log.h"
 #include "core/units.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
+#include "tests/app/scene_refusal.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 
@@ -80,15 +81,6 @@ double off(const dynamics::PlanetaryStage& stage, int mesh, Expected expected) {
     worst = std::max(worst, std::abs(workspace.error[static_cast<std::size_t>(mesh)] - expected(cycles)));
   }
   return worst / amplitude;
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    (void)app::parse_scene(text, "scene.toml");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -205,7 +197,7 @@ BOOST_AUTO_TEST_CASE(lists_of_teeth_are_not_lists_of_planets) {
   BOOST_TEST(paths.size() == 24U);
   BOOST_TEST((app::find_input(scene, paths.back()).index == 23U));
   BOOST_CHECK_THROW((void)app::find_input(scene, "errors.ring_pitch_deviations_um[1]"), InputError);
-  // Assemblies are drawn without them, and the user is told.
+  // Assemblies are drawn without them, and a warning says so.
   const auto drawn = app::parse_scene(text + "[tolerances]\nplanet_pin_position_um = 20\n", "scene.toml");
   const auto warnings = app::stage_scene_warnings(drawn, app::make_geometry(drawn));
   BOOST_TEST(std::any_of(warnings.begin(), warnings.end(), [](const auto& w) { return w.key == "pitch_deviations"; }));
@@ -213,7 +205,7 @@ BOOST_AUTO_TEST_CASE(lists_of_teeth_are_not_lists_of_planets) {
 
 BOOST_AUTO_TEST_CASE(lists_that_do_not_fit_are_refused) {
   const auto says = [](const std::string& text, const std::string& words) {
-    const auto message = refusal(text);
+    const auto message = test::scene_refusal(text);
     BOOST_TEST(message.find(words) != std::string::npos, message);
   };
   const std::string zeros = fmt::format("{}", fmt::join(std::vector<double>(23, 0), ", "));

@@ -13,6 +13,7 @@
 #include "app/systems/planetary/strain_gauges.h"
 #include "core/errors.h"
 #include "core/units.h"
+#include "tests/app/scene_refusal.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 
@@ -34,15 +35,6 @@ std::string bolted(const std::string& gauges) {
   text = text.substr(0, text.find("[errors]"));
   text = test::replaced(text, "\"traditional\"", "\"bolted\"\npins = 8\npin_diameter_mm = 12\nfirst_pin_angle_deg = 7");
   return "accuracy = 0.03\n" + text + gauges;
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    (void)app::parse_scene(text, "scene.toml");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 struct Readings {
@@ -126,7 +118,7 @@ BOOST_AUTO_TEST_CASE(what_no_gauge_can_show_is_refused) {
     return text.substr(0, text.find("[errors]")) + gauges;
   };
   const auto says = [&](const std::string& text, const std::string& words) {
-    const auto message = refusal(text);
+    const auto message = test::scene_refusal(text);
     BOOST_TEST(message.find(words) != std::string::npos, message);
   };
   says(with(gauge("a", "root", 45)), "is the middle of a tooth");

@@ -106,7 +106,7 @@ Table pitch_deviation_keys() {
     key.only_if(given("[dynamics]"), "the lumped model has the errors of single teeth");
     for (const auto* mesh : meshes)
       key.only_if(is(std::string("mesh.") + mesh + ".stiffness", {"computed"}),
-                  "a prescribed stiffness does not tell how tooth pairs share the load");
+                  "a prescribed stiffness has no load shares of tooth pairs");
   };
   declare("sun", &ErrorInput::sun_pitch, "sun", "meets planet 1 at time 0.", {"sun_planet"});
   declare("planet", &ErrorInput::planet_pitch, "planets: for one that stands for all, or for each of them in turn",

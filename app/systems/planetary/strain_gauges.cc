@@ -28,7 +28,7 @@ std::string name_at(const StrainGaugeInput& gauge, double axial_position) {
   return fmt::format("{}, z = {:.6g} mm", gauge.name, axial_position / units::mm);
 }
 
-/// In the middle of the face unless told.
+/// In the middle of the face without a list.
 std::vector<double> positions_of(const StrainGaugeInput& gauge) {
   return gauge.axial_positions.empty() ? std::vector<double>{0} : gauge.axial_positions;
 }

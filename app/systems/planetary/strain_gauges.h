@@ -21,7 +21,7 @@ void check_strain_gauges(Scene& scene, std::vector<Problem>& problems);
 
 /// The gauges on a ring, one per axial position, on a common face of this width (m).
 [[nodiscard]] std::vector<fem::StrainGauge> gauges_on(const Scene& scene, const RingInput& ring, double face_width);
-/// Whether any of them tells places along the face width apart, or measures along the axis.
+/// Whether any of them stands beside the middle of the face, or measures along the axis.
 [[nodiscard]] bool gauges_need_solid(const Scene& scene, const RingInput& ring);
 /// Adds a warning for each ring whose gauges show less than all planets together do.
 void warn_of_gauges(std::vector<Warning>& list, const Scene& scene);
