@@ -16,6 +16,7 @@ namespace annulus::dynamics {
 
 namespace {
 
+constexpr int samples_for_contacts = 256;           // of a mesh cycle
 constexpr double explicit_steps_of_a_period = 2.2;  // that keep the explicit method stable
 
 /// Are there lightly damped motions too fast for the steps of BDF?
@@ -42,13 +43,16 @@ bool varies(const LumpedSystem& system) {
   return system.meshes().size() == 1 && !std::holds_alternative<ConstantStiffness>(system.meshes().front().excitation);
 }
 
+/// Steps of a fifth-order method over those at the tolerance at which they were counted.
+double finer_steps(double relative_tolerance) { return std::pow(1e-5 / relative_tolerance, 1.0 / 5); }
+
 /// Accurate steps of the explicit method and of the L-stable one per mesh cycle, chosen by the counted steps of some
 /// hundred responses of random scenes.
 struct AccurateSteps {
   double explicit_method = 0, implicit_method = 0;
 };
 AccurateSteps accurate_steps(StiffnessCourse course, double relative_tolerance, double alive) {
-  const double finer = std::pow(1e-5 / relative_tolerance, 1.0 / 5);
+  const double finer = finer_steps(relative_tolerance);
   if (course == StiffnessCourse::sudden) return {finer * (100 + 8 * alive), 400 * finer};
   return {25 * finer, 190 * finer};
 }
@@ -57,15 +61,15 @@ AccurateSteps accurate_steps(StiffnessCourse course, double relative_tolerance, 
 double smooth_explicit_steps(const LumpedSystem& system, const IntegratorChoice& choice, double accurate,
                              double relative_tolerance) {
   constexpr double than_stable = 1.6;
-  const double finer = std::pow(1e-5 / relative_tolerance, 1.0 / 5);
+  const double finer = finer_steps(relative_tolerance);
   return std::max(accurate, choice.explicit_steps * (varies(system) ? std::max(1.0, than_stable * finer) : 1.0));
 }
 
 /// Is a motion that varies suddenly beyond the harmonic balance? With so few samples of a mesh cycle it misses tooth
 /// contacts; with more it may miss the highest natural frequency, unless that is so high that it dies out in between.
 bool too_few_samples(int samples, int needed) {
-  constexpr int for_contacts = 256, too_fast = 4;
-  return samples < for_contacts || (needed > 2 * samples && needed < too_fast * samples);
+  constexpr int too_fast = 4;
+  return samples < samples_for_contacts || (needed > 2 * samples && needed < too_fast * samples);
 }
 
 }  // namespace
@@ -124,12 +128,11 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   SteadyCourse result;
   const int most = std::max(options.samples_per_cycle, most_samples_per_cycle(period));
   // Doubled until they follow tooth contacts and the highest natural frequency.
-  constexpr int of_contacts = 256;
   int samples = std::min(options.samples_per_cycle, most);
   const UntrappedFloatingPoint untrapped;  // see above
   const double highest = modes(system, mean_stiffnesses(system)).modes.back().frequency;
   const double needed = std::min(4 * highest / mesh_frequency, 1e9);
-  const double wanted = course == StiffnessCourse::sudden ? std::max<double>(needed, of_contacts) : needed;
+  const double wanted = course == StiffnessCourse::sudden ? std::max<double>(needed, samples_for_contacts) : needed;
   while (2 * samples <= most && samples < wanted) samples *= 2;
   constexpr double any = 5e-4, per_sample = 2e-6;  // s; of a mesh
   result.balance_s = any + per_sample * static_cast<double>(system.meshes().size()) * period * samples;
