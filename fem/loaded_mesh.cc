@@ -19,12 +19,16 @@
 namespace annulus::fem {
 namespace {
 
-/// The ring mesh is solved in a mirror image of the real one, which turns the hands of helical gears.
+/// The ring mesh is solved in a mirror image of the real one, which turns the hands of helical gears and swaps the
+/// flanks.
 geometry::GearPair solved_pair(const geometry::GearPair& pair) {
-  if (!pair.internal() || pair.pinion().helix_angle() == 0) return pair;
+  const auto &pinion = pair.pinion().parameters(), &wheel = pair.wheel().parameters();
+  if (!pair.internal() || (pinion.helix_angle == 0 && !geometry::measured(pinion) && !geometry::measured(wheel)))
+    return pair;
   const auto mirrored = [](const geometry::Gear& gear) {
     auto parameters = gear.parameters();
     parameters.helix_angle = -parameters.helix_angle;
+    std::swap(parameters.leading_topography, parameters.trailing_topography);
     return geometry::Gear(parameters);
   };
   return {mirrored(pair.pinion()), mirrored(pair.wheel()), pair.centre_distance()};

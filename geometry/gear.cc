@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "core/units.h"
+#include "geometry/flank_topography.h"
 #include "geometry/root_fillet.h"
 
 namespace annulus::geometry {
@@ -46,7 +47,9 @@ void check_inputs(const GearParameters& p) {
   require_gear(p.tip_relief >= 0 && p.tip_relief_length >= 0 && p.profile_crowning >= 0 && p.lead_crowning >= 0, p,
                "has a negative tip relief, tip relief length, profile crowning or lead crowning; they are material "
                "removed, >= 0");
-  require_gear(std::isfinite(p.lead_slope), p, "has a lead slope that is not a finite number");
+  require_gear(std::isfinite(p.lead_slope) && std::isfinite(p.profile_slope), p,
+               "has a lead slope or a profile slope that is not a finite number");
+  require_gear(p.tip_chamfer >= 0 && std::isfinite(p.tip_chamfer), p, "has a negative tip chamfer");
   require_gear(
       p.tip_relief == 0 || p.tip_relief_length > 0, p,
       fmt::format("has a tip relief of {:.6g} um but no tip relief length; give the length along the line of action",
@@ -70,6 +73,11 @@ void check_tip(const Gear& gear) {
       fmt::format("has pointed teeth: {:.4f} mm thick at the tip (normal section), at least {} modules = {:.4f} mm are "
                   "needed; reduce the profile shift or bring the tip diameter nearer to the root",
                   thickness / units::mm, min_tip_thickness, min_tip_thickness * p.module / units::mm));
+  if (p.tip_chamfer == 0) return;
+  const double end = gear.tip_form_radius();
+  require_gear(
+      end > gear.base_radius() && gear.tooth_thickness(end) > 2 * p.tip_chamfer, p,
+      fmt::format("has a tip chamfer of {:.4f} mm, which leaves no tip; reduce it", p.tip_chamfer / units::mm));
 }
 
 }  // namespace
@@ -90,6 +98,17 @@ double inverse_involute(double value) {
   return angle;
 }
 
+bool measured(const GearParameters& p) { return p.leading_topography || p.trailing_topography; }
+
+bool modified(const GearParameters& p) {
+  return p.tip_relief != 0 || p.profile_crowning != 0 || p.profile_slope != 0 || modified_along_face(p) || measured(p);
+}
+
+bool modified_along_face(const GearParameters& p) {
+  const auto varies = [](const auto& topography) { return topography && topography->varies_along_face(); };
+  return p.lead_crowning != 0 || p.lead_slope != 0 || varies(p.leading_topography) || varies(p.trailing_topography);
+}
+
 Gear::Gear(const GearParameters& parameters) : p_(parameters) {
   check_inputs(p_);
   transverse_module_ = p_.module / std::cos(p_.helix_angle);
@@ -101,11 +120,11 @@ Gear::Gear(const GearParameters& parameters) : p_(parameters) {
   undercut_ = fillet.undercut();
   const double sign = kind() == GearKind::external ? 1 : -1;
   require_gear(
-      sign * (tip_radius() - form_radius_) > 0, p_,
-      fmt::format("has no usable flank: its root fillet reaches to the diameter {:.4f} mm, the tip is at {:.4f} mm; "
-                  "reduce the root fillet factor or move tip and root apart",
-                  2 * form_radius_ / units::mm, 2 * tip_radius() / units::mm));
-  const double usable = std::abs(std::sqrt(tip_radius() * tip_radius() - base_radius() * base_radius()) -
+      sign * (tip_form_radius() - form_radius_) > 0, p_,
+      fmt::format("has no usable flank: its root fillet reaches to the diameter {:.4f} mm, the flank ends at {:.4f} "
+                  "mm; reduce the root fillet factor or the tip chamfer, or move tip and root apart",
+                  2 * form_radius_ / units::mm, 2 * tip_form_radius() / units::mm));
+  const double usable = std::abs(std::sqrt(tip_form_radius() * tip_form_radius() - base_radius() * base_radius()) -
                                  std::sqrt(form_radius_ * form_radius_ - base_radius() * base_radius()));
   require_gear(
       p_.tip_relief_length <= usable, p_,
@@ -125,6 +144,8 @@ double Gear::tip_radius() const {
   const double r = reference_radius();
   return kind() == GearKind::external ? r + p_.module * (1 + p_.profile_shift) : r - p_.module * (1 - p_.profile_shift);
 }
+
+double Gear::tip_form_radius() const { return tip_radius() + (kind() == GearKind::external ? -1 : 1) * p_.tip_chamfer; }
 
 double Gear::root_radius() const {
   if (p_.root_diameter) return *p_.root_diameter / 2;

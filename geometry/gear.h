@@ -1,8 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 namespace annulus::geometry {
+
+class FlankTopography;
 
 enum class GearKind { external, internal };
 
@@ -21,14 +24,25 @@ struct GearParameters {
   std::optional<double> root_diameter{};  ///< m; absent: dedendum of 1.25 modules
   double root_fillet_factor = 0.38;       ///< rack tip radius (external) or fillet radius (internal, in the
                                           ///< transverse section) in modules; limited to the full root rounding
+  double tip_chamfer = 0;                 ///< m, radial height of the chamfers at the tip (h_K)
   double tip_relief = 0;                  ///< m, material removed at the tip, normal to the flank
   double tip_relief_length = 0;           ///< m, along the line of action, linear relief
   double profile_crowning = 0;            ///< m, parabolic, at both ends of the usable flank
+  double profile_slope = 0;               ///< m, removed linearly towards the tip (> 0) or the root (< 0), end to end
   double lead_crowning = 0;               ///< m, parabolic, removed at both ends of the face width
   double lead_slope = 0;                  ///< m, removed linearly towards +z (> 0) or -z (< 0), end to end
   double helix_angle = 0;                 ///< beta at the reference cylinder, rad; 0 = spur, > 0 = right hand
   double axial_offset = 0;                ///< m, of the middle of the face along the axis
+  /// Measured flanks on either side of the teeth (Boundary::leading_flank), beside the modifications; may be null.
+  std::shared_ptr<const FlankTopography> leading_topography{}, trailing_topography{};
 };
+
+/// Whether flanks differ from involutes.
+[[nodiscard]] bool modified(const GearParameters& parameters);
+/// Whether they do so differently along the face.
+[[nodiscard]] bool modified_along_face(const GearParameters& parameters);
+/// Whether they were measured.
+[[nodiscard]] bool measured(const GearParameters& parameters);
 
 /// A gear with its derived dimensions (ISO 21771). Angles and thicknesses on circles are those of the transverse
 /// section unless they say otherwise. Construction throws GeometryError with the reason when the gear cannot exist: tip
@@ -51,6 +65,8 @@ class Gear {
   [[nodiscard]] double reference_radius() const { return transverse_module_ * p_.teeth / 2; }  ///< m_t z / 2
   [[nodiscard]] double base_radius() const { return base_radius_; }                            ///< r_b
   [[nodiscard]] double tip_radius() const;  ///< internal: smaller than the root radius
+  /// Where the flank ends towards the tip: at the tip circle, or at its chamfer (d_Fa of ISO 21771).
+  [[nodiscard]] double tip_form_radius() const;
   [[nodiscard]] double root_radius() const;
   /// p_bt = 2 pi r_b / z, distance of teeth along the line of action in the transverse section.
   [[nodiscard]] double base_pitch() const;

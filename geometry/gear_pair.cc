@@ -91,10 +91,10 @@ GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance
   }
 
   const double length = centre_distance_ * std::sin(working_pressure_angle_);
-  const double wheel_tip = roll_at(wheel_, wheel_.tip_radius());
+  const double wheel_tip = roll_at(wheel_, wheel_.tip_form_radius());
   roll_pitch_ = pinion_.base_radius() * std::tan(working_pressure_angle_);
   roll_low_ = internal() ? wheel_tip - length : length - wheel_tip;
-  roll_high_ = roll_at(pinion_, pinion_.tip_radius());
+  roll_high_ = roll_at(pinion_, pinion_.tip_form_radius());
   check_tips();
   if (internal()) check_internal_tips();
   if (!(common_face().width > 0)) {
@@ -157,8 +157,8 @@ void GearPair::check_tips() const {
     throw GeometryError(fmt::format(
         "{}: {} interference: the tip of the {} (diameter {:.4f} mm) touches {:.4f} mm beyond the start of the "
         "planet's involute; {} its tip diameter or raise the planet's profile shift",
-        name, internal() ? "involute" : "tip", wheel_word, 2 * wheel_.tip_radius() / units::mm, -roll_low_ / units::mm,
-        internal() ? "enlarge" : "reduce"));
+        name, internal() ? "involute" : "tip", wheel_word, 2 * wheel_.tip_form_radius() / units::mm,
+        -roll_low_ / units::mm, internal() ? "enlarge" : "reduce"));
   }
   const double planet_form = roll_at(pinion_, pinion_.form_radius());
   if (roll_low_ < planet_form) {
@@ -168,7 +168,7 @@ void GearPair::check_tips() const {
                     "its form diameter {:.4f} mm (start of the involute); {} that tip diameter to {:.4f} mm, or reduce "
                     "the planet's "
                     "root diameter or its root fillet factor",
-                    name, wheel_word, 2 * wheel_.tip_radius() / units::mm,
+                    name, wheel_word, 2 * wheel_.tip_form_radius() / units::mm,
                     2 * std::hypot(pinion_.base_radius(), roll_low_) / units::mm, 2 * pinion_.form_radius() / units::mm,
                     internal() ? "enlarge" : "reduce",
                     2 * std::hypot(wheel_.base_radius(), wheel_roll_length(planet_form)) / units::mm));
@@ -181,7 +181,7 @@ void GearPair::check_tips() const {
         "{:.4f} mm (form diameter {:.4f} mm); reduce the planet's tip diameter (now {:.4f} mm) or the root fillet "
         "factor of the {}",
         name, wheel_word, wheel_roll / units::mm, wheel_form / units::mm, 2 * wheel_.form_radius() / units::mm,
-        2 * pinion_.tip_radius() / units::mm, wheel_word));
+        2 * pinion_.tip_form_radius() / units::mm, wheel_word));
   }
   const double a = centre_distance_;
   const double at_wheel_root =

@@ -114,7 +114,7 @@ RootSection root_section(const GearPair& pair, const Gear& gear, const std::opti
       rho_fp + 2 * g * g / (std::cos(theta) * (std::abs(z) * std::cos(theta) * std::cos(theta) - 2 * g));
 
   // Outer point of single pair contact: epsilon - 1 base pitches from the tip towards the root.
-  const double base = gear.base_radius() / p.module, tip = gear.tip_radius() / p.module;
+  const double base = gear.base_radius() / p.module, tip = gear.tip_form_radius() / p.module;
   const double roll = std::sqrt(tip * tip - base * base) -
                       sign_of(gear) * std::numbers::pi * std::cos(alpha) * (pair.contact_ratio() - 1);
   const double load_radius = std::hypot(roll, base);

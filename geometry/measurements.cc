@@ -44,7 +44,7 @@ double off_diameter(int teeth) { return teeth % 2 == 0 ? 1 : std::cos(std::numbe
 }  // namespace
 
 int usual_span_teeth(const Gear& gear) {
-  const double middle = (gear.tip_radius() + gear.form_radius()) / 2;
+  const double middle = (gear.tip_form_radius() + gear.form_radius()) / 2;
   // In the transverse section the tangent touches both flanks at half its length, W / (2 cos(beta_b)).
   int best = 1;
   double nearest = 0;
@@ -88,8 +88,8 @@ double dimension_over_pins(const Gear& gear, double pin_diameter) {
   // Of the flank: the pin's radius back along the normal.
   const double roll = gear.base_radius() * std::tan(angle) - s.sign * pin_diameter / (2 * std::cos(s.base_helix));
   const double touch = std::hypot(gear.base_radius(), roll);
-  const double low = std::min(gear.form_radius(), gear.tip_radius()),
-               high = std::max(gear.form_radius(), gear.tip_radius());
+  const double low = std::min(gear.form_radius(), gear.tip_form_radius()),
+               high = std::max(gear.form_radius(), gear.tip_form_radius());
   if (roll < 0 || touch < low || touch > high) refuse();
   return 2 * centre * off_diameter(p.teeth) + s.sign * pin_diameter;
 }

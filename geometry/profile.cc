@@ -19,7 +19,7 @@ ToothProfile::ToothProfile(const Gear& gear)
 
 double ToothProfile::twist() const { return std::tan(gear_.helix_angle()) / gear_.reference_radius(); }
 
-double ToothProfile::roll_length_tip() const { return roll_length_at(gear_.tip_radius()); }
+double ToothProfile::roll_length_tip() const { return roll_length_at(gear_.tip_form_radius()); }
 double ToothProfile::roll_length_form() const { return fillet_.form_roll(); }
 
 double ToothProfile::roll_length_at(double radius) const {
@@ -47,6 +47,7 @@ double ToothProfile::modification(double roll_length) const {
   const double form = roll_length_form();
   const double u = std::clamp((roll_length - form) / (tip - form), 0.0, 1.0);  // 0 at the form circle, 1 at the tip
   double removed = p.profile_crowning * (2 * u - 1) * (2 * u - 1);
+  removed += p.profile_slope > 0 ? p.profile_slope * u : -p.profile_slope * (1 - u);
   if (p.tip_relief > 0) {
     const double before_tip = (1 - u) * std::abs(tip - form);
     removed += p.tip_relief * std::max(0.0, 1 - before_tip / p.tip_relief_length);
@@ -71,7 +72,7 @@ Eigen::Vector2d ToothProfile::project(Boundary boundary, const Eigen::Vector2d& 
       require(std::isfinite(outside_radius), "projection onto an outside diameter that is not given");
       return on_circle(outside_radius);
     case Boundary::tip:
-      return on_circle(gear_.tip_radius());
+      return on_circle(gear_.tip_form_radius());
     case Boundary::root:
       return on_circle(gear_.root_radius());
     case Boundary::leading_flank: {

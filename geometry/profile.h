@@ -29,8 +29,9 @@ enum class Boundary : int {
 };
 
 /// The exact outline of one tooth: involute flanks with modifications left out, root fillets (generated trochoid for
-/// external gears, circular for internal ones), root and tip circles. Of a helical gear it is the transverse section at
-/// z = 0; at another z it is turned by twist() z about the axis.
+/// external gears, circular for internal ones), root and tip circles. A tooth with a tip chamfer ends at the circle
+/// where the chamfer begins: what is beyond it carries next to nothing. Of a helical gear it is the transverse section
+/// at z = 0; at another z it is turned by twist() z about the axis.
 class ToothProfile {
  public:
   explicit ToothProfile(const Gear& gear);
@@ -56,12 +57,9 @@ class ToothProfile {
   /// Both at once.
   [[nodiscard]] FlankPlace flank_place(double roll_length) const;
   /// Material removed normal to the flank, m, >= 0: tip relief rising linearly over the last `tip_relief_length` before
-  /// the tip, and a parabola of height `profile_crowning` at the tip and form circles. Beyond them the end value holds.
+  /// the end of the flank, a parabola of height `profile_crowning` at both its ends, and `profile_slope` from the form
+  /// circle to the tip (> 0) or the other way (< 0). Beyond them the end value holds.
   [[nodiscard]] double modification(double roll_length) const;
-  /// Whether there is any.
-  [[nodiscard]] bool modified() const {
-    return gear_.parameters().tip_relief > 0 || gear_.parameters().profile_crowning > 0;
-  }
   /// Material removed normal to the flank along the face width b, m, >= 0, z from 0 to b (ISO 21771 lead crowning and
   /// helix slope): the parabola lead_crowning (2 z / b - 1)^2, plus lead_slope z / b when the slope is positive and
   /// |lead_slope| (1 - z / b) when it is negative. Beyond the ends the end value holds.

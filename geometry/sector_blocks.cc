@@ -182,11 +182,12 @@ ToothLines add_tooth(const Gear& gear, const Rim& rim, const SectorResolution& n
     const double v = 2 * t - 1;
     return {middle.x() - sign * 0.5 * half_width * slope * (1 - v * v), v * half_width};
   };
-  const double tip_angle = gear.tooth_half_angle(gear.tip_radius());
+  const double tip_angle = gear.tooth_half_angle(gear.tip_form_radius());
   const auto& low = lines.trailing;
   const auto& high = lines.leading;
   lines.bottom = b.chain(low.middle, points_at(dip, across), high.middle, Boundary::none);
-  const Chain crest = b.chain(low.tip, arc(gear.tip_radius(), -tip_angle, tip_angle, across), high.tip, Boundary::tip);
+  const Chain crest =
+      b.chain(low.tip, arc(gear.tip_form_radius(), -tip_angle, tip_angle, across), high.tip, Boundary::tip);
   b.block(
       {crest, high.flank, high.upper_fillet, reversed(lines.bottom), reversed(low.upper_fillet), reversed(low.flank)},
       {low.tip, high.tip, high.middle, low.middle}, Mesh::Region::tooth);

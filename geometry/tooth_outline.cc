@@ -31,11 +31,14 @@ Eigen::Vector2d on_circle(double radius, double angle) { return {radius * std::c
 std::vector<Eigen::Vector2d> tooth_outline(const ToothProfile& profile, double tolerance) {
   const Gear& gear = profile.gear();
   const auto arc = [](double radius) { return [radius](double angle) { return on_circle(radius, angle); }; };
-  const double half_tip = gear.tooth_half_angle(gear.tip_radius());
+  // Chamfers lie at 45 degrees and take as much off the width as off the height.
+  const double half_tip =
+      gear.tooth_half_angle(gear.tip_form_radius()) - gear.parameters().tip_chamfer / gear.tip_radius();
   const Eigen::Vector2d root_end = profile.fillet_point(1);
   // The leading half from the middle of the tip to the middle of the space.
   Points leading = {on_circle(gear.tip_radius(), 0)};
   add_curve(leading, arc(gear.tip_radius()), 0, half_tip, tolerance);
+  if (gear.parameters().tip_chamfer > 0) leading.push_back(profile.flank_point(profile.roll_length_tip()));
   add_curve(
       leading, [&](double roll) { return profile.flank_point(roll); }, profile.roll_length_tip(),
       profile.roll_length_form(), tolerance);

@@ -75,12 +75,16 @@ std::vector<DrawingRow> gear_rows(const DrawingData& data) {
   mm("reference_diameter_mm", "reference diameter d", [](const Gear& g) { return 2 * g.reference_radius(); });
   mm("base_diameter_mm", "base diameter d_b", [](const Gear& g) { return 2 * g.base_radius(); });
   mm("tip_diameter_mm", "tip diameter d_a", [](const Gear& g) { return 2 * g.tip_radius(); });
+  mm("tip_form_diameter_mm", "tip form diameter, end of the involute",
+     [](const Gear& g) { return 2 * g.tip_form_radius(); });
   mm("root_diameter_mm", "root diameter d_f", [](const Gear& g) { return 2 * g.root_radius(); });
   mm("form_diameter_mm", "form diameter, start of the involute", [](const Gear& g) { return 2 * g.form_radius(); });
   mm("tooth_thickness_mm", "normal tooth thickness on d",
      [](const Gear& g) { return geometry::normal_tooth_thickness(g); });
-  mm("tip_thickness_mm", "normal tooth thickness on d_a",
-     [](const Gear& g) { return g.tooth_thickness(g.tip_radius()) * std::cos(g.helix_angle_at(g.tip_radius())); });
+  mm("tip_thickness_mm", "normal tooth thickness on d_a", [](const Gear& g) {
+    return (g.tooth_thickness(g.tip_form_radius()) - 2 * g.parameters().tip_chamfer) *
+           std::cos(g.helix_angle_at(g.tip_radius()));
+  });
   add("span_teeth", "teeth (ring: spaces) of the span", "", 0,
       [](const Gear& g) { return geometry::usual_span_teeth(g); });
   mm("span_mm", "span W_k", [](const Gear& g) { return g.base_tangent_length(geometry::usual_span_teeth(g)); });

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "app/model/study_cases.h"
 #include "core/units.h"
@@ -95,6 +96,51 @@ void warn_of_undercut(std::vector<Warning>& list, const geometry::Gear& gear, co
                    "as computed",
                    name, to_text(2 * gear.form_radius() / units::mm, 6),
                    to_text(2 * gear.base_radius() / units::mm, 6))});
+}
+
+void warn_of_measured_flanks(std::vector<Warning>& list, const geometry::GearPair& pair,
+                             const std::pair<const char*, const char*>& gears, const std::string& mesh) {
+  constexpr double most = 0.1;
+  const double base = pair.pinion().base_radius(), wheel_base = pair.wheel().base_radius();
+  const auto face = pair.common_face();
+  const auto check = [&](const geometry::Gear& gear, const char* name, bool leading, double below,
+                         std::pair<double, double> radii) {
+    const auto& p = gear.parameters();
+    const auto &side = leading ? p.leading_topography : p.trailing_topography,
+               &other = leading ? p.trailing_topography : p.leading_topography;
+    if (!side && other)
+      list.push_back({"measured_flanks", Severity::warning,
+                      fmt::format("the {} has a measured topography of the flanks that do not carry here; those that "
+                                  "do are without deviations. Give both left_topography and right_topography",
+                                  name),
+                      mesh});
+    if (!side) return;
+    const auto [low, high] = std::minmax(radii.first, radii.second);
+    const double missing = std::max(side->radii().front() - low, high - side->radii().back());
+    if (missing > most * (high - low))
+      list.push_back({"measured_flanks", Severity::warning,
+                      fmt::format("the {} touches from diameter {} to {} mm, and its topography reaches from {} to {} "
+                                  "mm: beyond its ends their values are used",
+                                  name, to_text(2 * low / units::mm, 6), to_text(2 * high / units::mm, 6),
+                                  to_text(2 * side->radii().front() / units::mm, 6),
+                                  to_text(2 * side->radii().back() / units::mm, 6)),
+                      mesh});
+    if (side->positions().size() == 1) return;
+    const double from = below - p.face_width / 2, to = from + face.width;
+    if (std::max(side->positions().front() - from, to - side->positions().back()) > most * face.width)
+      list.push_back({"measured_flanks", Severity::warning,
+                      fmt::format("the {} touches from position {} to {} mm along its face, and its topography reaches "
+                                  "from {} to {} mm: beyond its ends their values are used",
+                                  name, to_text(from / units::mm, 5), to_text(to / units::mm, 5),
+                                  to_text(side->positions().front() / units::mm, 5),
+                                  to_text(side->positions().back() / units::mm, 5)),
+                      mesh});
+  };
+  const double low = pair.roll_length_low(), high = pair.roll_length_high();
+  check(pair.pinion(), gears.first, !pair.internal(), face.pinion.below,
+        {std::hypot(base, low), std::hypot(base, high)});
+  check(pair.wheel(), gears.second, true, face.wheel.below,
+        {std::hypot(wheel_base, pair.wheel_roll_length(low)), std::hypot(wheel_base, pair.wheel_roll_length(high))});
 }
 
 void warn_of_backlash(std::vector<Warning>& list, double half_backlash, const geometry::GearPair& pair,

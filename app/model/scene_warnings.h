@@ -20,6 +20,10 @@ void warn_of_clearance(std::vector<Warning>& list, const geometry::GearPair& pai
                        const std::pair<const char*, const char*>& gears, const std::string& mesh);
 /// A gear of that name whose rack corner cut into the involute.
 void warn_of_undercut(std::vector<Warning>& list, const geometry::Gear& gear, const std::string& name);
+/// Measured flanks on one side of the teeth only, or that leave out more than a tenth of the part that touches; their
+/// ends are continued there.
+void warn_of_measured_flanks(std::vector<Warning>& list, const geometry::GearPair& pair,
+                             const std::pair<const char*, const char*>& gears, const std::string& mesh);
 /// A half backlash of the dynamics (m) that is larger than half of what the geometry leaves.
 void warn_of_backlash(std::vector<Warning>& list, double half_backlash, const geometry::GearPair& pair,
                       const std::string& mesh);

@@ -23,13 +23,17 @@ geometry::GearParameters gear_parameters(const Scene& scene, const GearInput& in
           .tip_diameter = input.tip_diameter,
           .root_diameter = input.root_diameter,
           .root_fillet_factor = input.root_fillet_factor,
+          .tip_chamfer = input.tip_chamfer,
           .tip_relief = input.tip_relief,
           .tip_relief_length = input.tip_relief_length,
           .profile_crowning = input.profile_crowning,
+          .profile_slope = input.profile_slope,
           .lead_crowning = input.lead_crowning,
           .lead_slope = input.lead_slope,
           .helix_angle = hand * scene.stage.helix_angle,
-          .axial_offset = input.axial_offset};
+          .axial_offset = input.axial_offset,
+          .leading_topography = input.leading_flank,
+          .trailing_topography = input.trailing_flank};
 }
 
 geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::GearKind kind, int hand) {

@@ -13,7 +13,10 @@ namespace annulus::app {
 
 namespace {
 
-bool lead_modified(const GearInput& gear) { return gear.lead_crowning != 0 || gear.lead_slope != 0; }
+/// The kind of gear does not matter to its lead.
+bool lead_modified(const Scene& scene, const GearInput& gear) {
+  return geometry::modified_along_face(gear_parameters(scene, gear, geometry::GearKind::external));
+}
 
 void set_given(MeshModel& model, StiffnessShape given) {
   constexpr const char* names[] = {"computed", "constant", "harmonic",   "rectangular",
@@ -24,14 +27,23 @@ void set_given(MeshModel& model, StiffnessShape given) {
   model.repeats = "as given";
 }
 
+void add_topography(ContentId& id, const std::string& name, const geometry::FlankTopography& flank) {
+  for (const double radius : flank.radii()) id.add(name + ".radius", radius);
+  for (const double position : flank.positions()) id.add(name + ".position", position);
+  for (const double removed : flank.removed().reshaped()) id.add(name + ".removed", removed);
+}
+
 void add_gear(ContentId& id, const std::string& name, const geometry::Gear& gear) {
   const auto& p = gear.parameters();
   id.add(name + ".teeth", p.teeth).add(name + ".module", p.module).add(name + ".pressure_angle", p.pressure_angle);
-  id.add(name + ".profile_shift", p.profile_shift).add(name + ".tip_radius", gear.tip_radius());
+  id.add(name + ".profile_shift", p.profile_shift).add(name + ".tip_radius", gear.tip_form_radius());
   id.add(name + ".root_radius", gear.root_radius()).add(name + ".root_fillet", p.root_fillet_factor);
   id.add(name + ".tip_relief", p.tip_relief).add(name + ".tip_relief_length", p.tip_relief_length);
   id.add(name + ".profile_crowning", p.profile_crowning).add(name + ".helix_angle", p.helix_angle);
   id.add(name + ".lead_crowning", p.lead_crowning).add(name + ".lead_slope", p.lead_slope);
+  if (p.profile_slope != 0) id.add(name + ".profile_slope", p.profile_slope);
+  if (p.leading_topography) add_topography(id, name + ".leading", *p.leading_topography);
+  if (p.trailing_topography) add_topography(id, name + ".trailing", *p.trailing_topography);
 }
 
 void add_structure(ContentId& id, const fem::RingStructure& structure) {
@@ -145,8 +157,8 @@ fem::FaceFeatures face_features(const Scene& scene, const GearInput& planet, con
   constexpr double seen = 0.05;
   const double apart = std::abs(planet.axial_offset - wheel.axial_offset);
   const bool beside = apart > seen * narrower_face(scene, planet, wheel);
-  return {scene.stage.helix_angle, planet_name,  wheel_name, lead_modified(planet),
-          lead_modified(wheel),    misalignment, beside,     gauges_across};
+  return {scene.stage.helix_angle,     planet_name,  wheel_name, lead_modified(scene, planet),
+          lead_modified(scene, wheel), misalignment, beside,     gauges_across};
 }
 
 std::string solid_reason(const Scene& scene, const GearMesh& mesh) {

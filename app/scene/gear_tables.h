@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 
@@ -123,6 +125,10 @@ void declare_flanks(Declarations<Section>& t, Flanks flanks) {
             : "Tip radius of the generating rack in modules.")
       .fallback(0.38, "ISO 53 profile A")
       .above(0, 0.6);
+  t.key("tip_chamfer_mm", &Section::tip_chamfer,
+        "Radial height of the chamfers between flanks and tip circle, at 45 degrees. The flanks end where they begin.")
+      .fallback(0.0, "sharp tips")
+      .from(0, 100);
   const auto modification = [&](const char* name, double Section::*member, const char* meaning) {
     return t.key(name, member, meaning).fallback(0.0, "unmodified flanks");
   };
@@ -133,6 +139,10 @@ void declare_flanks(Declarations<Section>& t, Flanks flanks) {
   modification("profile_crowning_um", &Section::profile_crowning,
                "Parabolic crowning at both ends of the flank's profile.")
       .from(0, 1000);
+  modification("profile_slope_um", &Section::profile_slope,
+               "Slope along the profile from the form circle to the end of the flank at the tip; positive removes "
+               "material at the tip, negative at the root.")
+      .from(-1000, 1000);
   modification("lead_crowning_um", &Section::lead_crowning,
                "Parabolic crowning along the face width, removed at both ends. The mesh then needs the solid model.")
       .from(0, 1000);
@@ -140,6 +150,17 @@ void declare_flanks(Declarations<Section>& t, Flanks flanks) {
                "Slope along the face width, end to end; positive removes material towards +z, the free end of a "
                "thin_walled ring. The mesh then needs the solid model.")
       .from(-1000, 1000);
+  const auto topography = [&](const char* name, auto member, const char* side) {
+    t.key(name, member,
+          fmt::format("File (CSV) with the measured {} flank of a tooth, that on the {} side as seen from +z: "
+                      "diameter_mm, position_mm, removed_um on a grid (docs/exchange.md). The path is relative to the "
+                      "scene. Added to the modifications. Flanks that change along the face need the solid model.",
+                      side == std::string("left") ? "left" : "right",
+                      side == std::string("left") ? "counter-clockwise" : "clockwise"))
+        .absent("involutes, with the modifications above");
+  };
+  topography("left_topography", &Section::left_topography, "left");
+  topography("right_topography", &Section::right_topography, "right");
 }
 
 /// bore_diameter_mm, required where a mesh of this gear is computed.

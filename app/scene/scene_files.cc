@@ -34,10 +34,10 @@ auto with_file(const Scene& scene, const std::string& key, const std::string& na
 
 }  // namespace
 
-std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, const std::string& name) {
+std::filesystem::path file_below_scene(const Scene& scene, const std::string& name) {
   namespace fs = std::filesystem;
   constexpr const char* where = "a path relative to the scene, to a file in its folder or below";
-  if (name.empty() || fs::path(name).is_absolute()) throw refusal(scene, key, name, fmt::format("must be {}", where));
+  if (name.empty() || fs::path(name).is_absolute()) throw InputError(fmt::format("must be {}", where));
   std::error_code error;
   const auto folder = scene.file.parent_path();
   auto file = folder / name;
@@ -46,13 +46,21 @@ std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, 
   const auto target = error ? fs::path() : fs::weakly_canonical(fs::absolute(file), error);
   const bool below =
       !error && std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first == root.end();
-  if (!below) throw refusal(scene, key, name, fmt::format("leads out of the scene's folder; must be {}", where));
+  if (!below) throw InputError(fmt::format("leads out of the scene's folder; must be {}", where));
   const auto status = fs::status(file, error);
-  if (!fs::exists(status)) throw refusal(scene, key, name, "there is no such file; is the path right?");
-  if (!fs::is_regular_file(status)) throw refusal(scene, key, name, "is not a file");
+  if (!fs::exists(status)) throw InputError("there is no such file; is the path right?");
+  if (!fs::is_regular_file(status)) throw InputError("is not a file");
   if (const auto size = fs::file_size(file, error); error || size > largest_file)
-    throw refusal(scene, key, name, fmt::format("is larger than {} MB", largest_file / 1'000'000));
+    throw InputError(fmt::format("is larger than {} MB", largest_file / 1'000'000));
   return file;
+}
+
+std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, const std::string& name) {
+  try {
+    return file_below_scene(scene, name);
+  } catch (const InputError& error) {
+    throw refusal(scene, key, name, error.what());
+  }
 }
 
 StiffnessTable given_table(const Scene& scene, const std::string& mesh, const std::string& name) {

@@ -12,6 +12,9 @@ namespace annulus::app {
 /// throws InputError for absolute paths, for those that lead elsewhere, links followed, and for what is no file.
 [[nodiscard]] std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, const std::string& name);
 
+/// The same; errors give the reason alone, without place and key.
+[[nodiscard]] std::filesystem::path file_below_scene(const Scene& scene, const std::string& name);
+
 /// The stiffness table in the file that [mesh.NAME] names. Throws InputError, with place and key, when it cannot be
 /// used.
 [[nodiscard]] StiffnessTable given_table(const Scene& scene, const std::string& mesh, const std::string& name);

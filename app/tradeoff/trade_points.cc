@@ -15,9 +15,9 @@ std::string mean_key(const std::string& mesh) { return mesh + "_mean_stiffness_N
 std::string entries_key(const std::string& mesh) { return mesh + "_stiffness_entries_N_per_m"; }
 std::string lte_key(const std::string& mesh) { return mesh + "_lte_peak_to_peak_m"; }
 
-/// All settings of a ring in the plane share plane strain, also the one they are compared with.
+/// All settings of a ring share what its model leaves out, also the one they are compared with.
 double common_error(const MeshResult& mesh) {
-  return fem::is_solid(mesh.model.settings.fidelity) ? 0 : fem::plane_error(*mesh.model.problem);
+  return fem::model_error(*mesh.model.problem, mesh.model.settings.fidelity);
 }
 
 Figure absolute(double value, double relative) { return {value, std::abs(value) * relative}; }

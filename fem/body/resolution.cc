@@ -183,7 +183,7 @@ int support_slices(const LoadedMeshProblem& problem, int face_cells) {
 int slices_per_cell(const LoadedMeshProblem& problem, int degree) {
   const auto uneven = [](const geometry::Gear& gear) {
     const auto& p = gear.parameters();
-    return p.helix_angle != 0 || p.lead_crowning != 0 || p.lead_slope != 0;
+    return p.helix_angle != 0 || geometry::modified_along_face(p);
   };
   // A slice carries a constant load on a line along the axis: what that leaves of an uneven load, or of the slanted
   // contact of helical teeth, falls with the square of their number.

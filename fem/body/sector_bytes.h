@@ -38,7 +38,7 @@ inline void add_sector_inputs(ByteWriter& inputs, const geometry::Mesh& mesh, co
   const auto& gear = profile.gear();
   const auto& p = gear.parameters();
   // Modifications of the flanks are gaps of the contact, the mesh knows none.
-  inputs(p.kind, p.teeth, p.module, p.pressure_angle, p.profile_shift, gear.tip_radius(), gear.root_radius(),
+  inputs(p.kind, p.teeth, p.module, p.pressure_angle, p.profile_shift, gear.tip_form_radius(), gear.root_radius(),
          gear.form_radius(), p.root_fillet_factor, p.helix_angle);
   inputs(support_radius, material.youngs_modulus, material.poisson_ratio);
   if (options.outputs.count(SectorOutput::mass) > 0) inputs(material.density);

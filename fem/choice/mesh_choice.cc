@@ -55,6 +55,8 @@ std::string repeats_text(const LoadedMeshProblem& problem, int positions) {
 void prefer_formulas(const LoadedMeshProblem& problem, const MeshWish& wish, MeshChoice& choice) {
   if (wish.model != WantedModel::automatic || choice.settings.fidelity != Fidelity::plane) return;
   if (wish.accuracy < least_closed_form_error || !problem.gauges.empty()) return;
+  if (geometry::measured(problem.pair.pinion().parameters()) || geometry::measured(problem.pair.wheel().parameters()))
+    return;
   const double error = closed_form_error(problem);
   if (error > wish.accuracy) return;
   choice.settings.fidelity = Fidelity::closed_form;

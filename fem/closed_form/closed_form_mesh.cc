@@ -197,7 +197,7 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
   const auto yielding = bending_errors(problem, settings, rim, cycles, positions);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     StiffnessEntry& entry = positions[i].entry;
-    entry.error_parts.model = least_closed_form_error + yielding[i] + plane_error(problem);
+    entry.error_parts.model = least_closed_form_error + yielding[i] + model_error(problem, Fidelity::closed_form);
     entry.error_relative = entry.error_parts.total();
   }
 
@@ -206,7 +206,8 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
   for (std::size_t i = 0; i < result.positions.size(); ++i)
     if (i % loads == static_cast<std::size_t>(loads) / 2)
       result.worst_error_relative =
-          std::max(result.worst_error_relative, result.positions[i].entry.error_relative - plane_error(problem));
+          std::max(result.worst_error_relative,
+                   result.positions[i].entry.error_relative - model_error(problem, Fidelity::closed_form));
   if (!run.supports().empty()) result.pin_stiffness = run.supports().front().stiffness;
   // The frame of the solve is the mirror image of the real ring.
   for (int pin = 0; pin < problem.structure.single_supports(); ++pin)

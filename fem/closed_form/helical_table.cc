@@ -24,15 +24,12 @@ geometry::Gear transverse_section(const geometry::Gear& gear) {
   return geometry::Gear(p);
 }
 
-bool modified(const geometry::GearParameters& p) {
-  return p.tip_relief != 0 || p.profile_crowning != 0 || p.lead_crowning != 0 || p.lead_slope != 0;
-}
-
 }  // namespace
 
 std::string no_helical_closed_form(const geometry::GearParameters& planet, const geometry::GearParameters& wheel,
                                    double misalignment) {
-  if (modified(planet) || modified(wheel)) return "flanks with modifications have no closed form here";
+  if (geometry::modified(planet) || geometry::modified(wheel))
+    return "flanks with modifications have no closed form here";
   return misalignment != 0 ? "misaligned flanks have no closed form" : "";
 }
 

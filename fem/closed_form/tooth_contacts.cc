@@ -29,7 +29,7 @@ double distance_to_tip(const geometry::ToothProfile& profile, double roll) {
 
 /// What the modifications of a flank add to the gap, by the arc towards growing roll lengths.
 struct Modification {
-  double slope = 0, curvature = 0;  ///< of the profile crowning
+  double slope = 0, curvature = 0;  ///< of profile crowning and slope
   FlankGap::Kink relief;            ///< where the tip relief starts
 };
 
@@ -37,7 +37,7 @@ Modification modification(const geometry::ToothProfile& profile, double roll) {
   const auto& p = profile.gear().parameters();
   const double tip = profile.roll_length_tip(), form = profile.roll_length_form(), base = profile.gear().base_radius();
   const double by_arc = base / roll, length = tip - form;  // d roll / d arc
-  const double slope = 4 * p.profile_crowning * (2 * (roll - form) / length - 1) / length;
+  const double slope = (4 * p.profile_crowning * (2 * (roll - form) / length - 1) + p.profile_slope) / length;
   Modification result;
   result.slope = slope * by_arc;
   result.curvature = 8 * p.profile_crowning / (length * length) * by_arc * by_arc - slope * by_arc * by_arc / roll;

@@ -7,6 +7,18 @@
 
 namespace annulus::fem {
 
+namespace {
+
+/// The measured side of a gear between two positions on the common face, which begins `below` the gear's own.
+geometry::FlankTopography::Slice measured_slice(const std::shared_ptr<const geometry::FlankTopography>& side,
+                                                const geometry::Gear& gear, double below, double low, double high) {
+  if (!side) return {};
+  const double middle = gear.parameters().face_width / 2 - below;
+  return side->slice(low - middle, high - middle);
+}
+
+}  // namespace
+
 ContactFace::ContactFace(const FlankContact& flanks, std::vector<double> slice_edges, const FaceGaps& gaps)
     : flanks_(flanks),
       slice_edges_(std::move(slice_edges)),
@@ -24,11 +36,30 @@ ContactFace::ContactFace(const FlankContact& flanks, std::vector<double> slice_e
     const double inside = boost::math::tools::brent_find_minima(gap, low, high, 30).second;
     smallest_lead_gap_.push_back(std::min({gap(low), gap(high), inside}));
     lead_gap_.push_back(boost::math::quadrature::gauss<double, 7>::integrate(gap, low, high) / (high - low));
+    const auto &planet = flanks_.pair().pinion(), &wheel = flanks_.pair().wheel();
+    const auto &planet_side = planet.parameters().leading_topography,
+               &wheel_side = flanks_.wheel_flank() == geometry::Boundary::leading_flank
+                                 ? wheel.parameters().leading_topography
+                                 : wheel.parameters().trailing_topography;
+    if (planet_side || wheel_side)
+      measured_.push_back({measured_slice(planet_side, planet, gaps.planet_below, low, high),
+                           measured_slice(wheel_side, wheel, gaps.wheel_below, low, high)});
   }
 }
 
 double ContactFace::smallest_lead_gap() const {
   return *std::min_element(smallest_lead_gap_.begin(), smallest_lead_gap_.end());
+}
+
+double ContactFace::measured_dip(int slice, double planet_roll, double wheel_roll) const {
+  if (measured_.empty()) return 0;
+  const auto dip = [](const geometry::FlankTopography::Slice& side, const geometry::Gear& gear, double roll) {
+    const double radius = std::hypot(gear.base_radius(), roll);
+    return side.mean(radius) - side.least(radius);
+  };
+  const auto& pair = flanks_.pair();
+  return dip(measured_[slice].planet, pair.pinion(), planet_roll) +
+         dip(measured_[slice].wheel, pair.wheel(), wheel_roll);
 }
 
 double ContactFace::slice_roll(int slice) const {

@@ -26,6 +26,14 @@ class ContactFace {
   [[nodiscard]] double lead_gap(int slice) const { return lead_gap_[slice]; }
   [[nodiscard]] double smallest_lead_gap(int slice) const { return smallest_lead_gap_[slice]; }
   [[nodiscard]] double smallest_lead_gap() const;  ///< m, of all slices
+  /// Measured flanks in a slice; null where none were.
+  [[nodiscard]] const FlankDeviations* measured(int slice) const {
+    return measured_.empty() ? nullptr : &measured_[slice];
+  }
+  /// m, normal to the flanks, by how much these come nearer to each other within a slice than they do on its mean.
+  [[nodiscard]] double measured_dip(int slice, double planet_roll, double wheel_roll) const;
+  /// Whether flanks face each other in every slice in another way.
+  [[nodiscard]] bool varies() const { return helical() || !measured_.empty(); }
   /// cos(base helix angle): normal approach of the flanks per transmission error.
   [[nodiscard]] double normal_factor() const { return normal_factor_; }
   [[nodiscard]] bool helical() const { return roll_per_z_ != 0; }
@@ -36,6 +44,7 @@ class ContactFace {
   const FlankContact& flanks_;
   std::vector<double> slice_edges_;
   std::vector<double> lead_gap_, smallest_lead_gap_;
+  std::vector<FlankDeviations> measured_;  ///< of every slice, or none
   double normal_factor_;
   double roll_per_z_;
 };

@@ -30,7 +30,9 @@ FlankContact::FlankContact(const geometry::GearPair& pair)
       pinion_(pair.pinion()),
       wheel_(pair.wheel()),
       planet_base_half_angle_(base_half_angle(pair.pinion())),
-      wheel_base_half_angle_(base_half_angle(pair.wheel())) {}
+      wheel_base_half_angle_(base_half_angle(pair.wheel())),
+      normal_factor_(std::cos(pair.pinion().base_helix_angle())),
+      modified_(geometry::modified(pair.pinion().parameters()) || geometry::modified(pair.wheel().parameters())) {}
 
 double FlankContact::planet_tooth_angle(double contact_roll) const {
   const double alpha = pair_.working_pressure_angle(), turned = contact_roll / pair_.pinion().base_radius();
@@ -109,14 +111,20 @@ std::pair<double, double> FlankContact::opposite(double planet_roll, double cont
   return {roll, seen(roll).distance.dot(normal)};
 }
 
-FlankContact::Match FlankContact::match(double planet_roll, double contact_roll) const {
+FlankContact::Match FlankContact::match(double planet_roll, double contact_roll,
+                                        const FlankDeviations* measured) const {
   const auto [roll, gap] = opposite(planet_roll, contact_roll);
   if (!(roll > 0 && std::isfinite(roll)))
     throw SolverError(
         fmt::format("no point of the wheel flank lies opposite to the planet flank at the roll length "
                     "{:.6g} mm, the theoretical contact at {:.6g} mm",
                     1e3 * planet_roll, 1e3 * contact_roll));
-  return {roll, gap + pinion_.modification(planet_roll) + wheel_.modification(roll)};
+  double removed = pinion_.modification(planet_roll) + wheel_.modification(roll);
+  if (measured != nullptr)
+    removed += measured->planet.mean(std::hypot(pair_.pinion().base_radius(), planet_roll)) +
+               measured->wheel.mean(std::hypot(pair_.wheel().base_radius(), roll));
+  // What is removed normal to a helical flank is longer in its transverse section.
+  return {roll, gap + removed / normal_factor_};
 }
 
 bool FlankContact::face_each_other(double contact_roll) const {
@@ -156,12 +164,12 @@ FlankContact::Interval FlankContact::domain(double contact_roll) const {
   return interval;
 }
 
-double FlankContact::nearest_roll(double contact_roll, const Interval& domain) const {
+double FlankContact::nearest_roll(double contact_roll, const Interval& domain, const FlankDeviations* measured) const {
   require(!domain.empty(), "flanks that do not face each other have no smallest gap");
   // Two involutes open to both sides of their contact as long as both have one.
-  if (!pinion_.modified() && !wheel_.modified() && contact_roll > 0 && pair_.wheel_roll_length(contact_roll) > 0)
+  if (!modified_ && measured == nullptr && contact_roll > 0 && pair_.wheel_roll_length(contact_roll) > 0)
     return std::clamp(contact_roll, domain.low, domain.high);
-  const auto gap = [&](double roll) { return match(roll, contact_roll).gap; };
+  const auto gap = [&](double roll) { return match(roll, contact_roll, measured).gap; };
   // Modifications can make several dents; look at a raster first.
   constexpr int raster = 64;
   int best = 0;

@@ -3,10 +3,16 @@
 #include <Eigen/Core>
 #include <utility>
 
+#include "geometry/flank_topography.h"
 #include "geometry/gear_pair.h"
 #include "geometry/profile.h"
 
 namespace annulus::fem {
+
+/// What measured flanks differ by from their profiles, over the face or in a slice of it.
+struct FlankDeviations {
+  geometry::FlankTopography::Slice planet{}, wheel{};
+};
 
 /// Exact geometry of one tooth pair: planet leading flank against the wheel's working flank, in the position in which
 /// the conjugate flanks would touch at a given planet roll length.
@@ -23,9 +29,9 @@ class FlankContact {
     double wheel_roll = 0;  ///< roll length of the wheel point on the planet's normal, m
     double gap = 0;         ///< distance along the planet's normal, modifications included, m; < 0: overlap
   };
-  /// The wheel point opposite to planet roll `planet_roll`; `contact_roll` is the position. Throws SolverError when
-  /// the planet's normal misses the wheel's involute.
-  [[nodiscard]] Match match(double planet_roll, double contact_roll) const;
+  /// The wheel point opposite to planet roll `planet_roll`; `contact_roll` is the position. `measured`: deviations of
+  /// the flanks, where there are any. Throws SolverError when the planet's normal misses the wheel's involute.
+  [[nodiscard]] Match match(double planet_roll, double contact_roll, const FlankDeviations* measured = nullptr) const;
 
   struct Interval {
     double low = 0, high = 0;
@@ -38,7 +44,8 @@ class FlankContact {
   /// Smallest gap over the domain: zero for an unmodified pair within the theoretical line of action.
   [[nodiscard]] double smallest_gap(double contact_roll) const;
   /// Planet roll length in the domain (that of the contact) where the gap is smallest.
-  [[nodiscard]] double nearest_roll(double contact_roll, const Interval& domain) const;
+  [[nodiscard]] double nearest_roll(double contact_roll, const Interval& domain,
+                                    const FlankDeviations* measured = nullptr) const;
   /// 1/rho_planet +- 1/rho_wheel at a planet roll length of the theoretical contact, 1/m.
   [[nodiscard]] double relative_curvature(double contact_roll) const;
 
@@ -62,6 +69,8 @@ class FlankContact {
   geometry::GearPair pair_;
   geometry::ToothProfile pinion_, wheel_;
   double planet_base_half_angle_, wheel_base_half_angle_;
+  double normal_factor_;  ///< cosine of the base helix angle
+  bool modified_;         ///< either gear
 };
 
 /// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.

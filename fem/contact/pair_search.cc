@@ -43,8 +43,9 @@ std::vector<FacingFlanks> facing_flanks(const ContactFace& face, int slices,
     FacingFlanks facing;
     facing.pair = index;
     facing.pair_roll = facing.roll = roll;
-    // The section of a helical gear turns along the face width, and the contact moves with it.
-    if (!face.helical()) {
+    // The section of a helical gear turns along the face width, and the contact moves with it; measured flanks have
+    // another profile in every slice.
+    if (!face.varies()) {
       facing.slices.resize(slices);
       std::iota(facing.slices.begin(), facing.slices.end(), 0);
       result.push_back(std::move(facing));
@@ -78,7 +79,8 @@ double find_gaps(const ContactFace& face, std::vector<FacingFlanks>& all, const 
   std::optional<double> apart_before, apart_behind;
   for (const std::size_t i : outwards) {
     auto& f = all[i];
-    // Beyond either end of the path flanks get further apart all the way.
+    // Beyond either end of the path flanks get further apart all the way, unless they are measured ones.
+    const auto* measured = face.measured(f.slices.front());
     const double beyond = beyond_path(pair, f.roll);
     auto& apart = beyond < 0 ? apart_before : apart_behind;
     if (beyond != 0 && apart && !is_added(setup, f.pair, f.slices)) {
@@ -91,10 +93,14 @@ double find_gaps(const ContactFace& face, std::vector<FacingFlanks>& all, const 
       f.slices.clear();
       continue;
     }
-    f.centre_roll = face.flanks().nearest_roll(f.roll, f.domain);
-    f.gap = face.normal_factor() * face.flanks().match(f.centre_roll, f.roll).gap;
+    f.centre_roll = face.flanks().nearest_roll(f.roll, f.domain, measured);
+    const auto nearest = face.flanks().match(f.centre_roll, f.roll, measured);
+    f.gap = face.normal_factor() * nearest.gap;
+    for (const int s : f.slices) f.gap -= face.measured_dip(s, f.centre_roll, nearest.wheel_roll);
     for (const int s : f.slices) least = std::min(least, gap_without_load(face, f, s));
-    if (beyond != 0 && !apart && (f.gap + least_lead_gap) / face.normal_factor() - least > setup.reach) apart = f.gap;
+    if (beyond != 0 && measured == nullptr && !apart &&
+        (f.gap + least_lead_gap) / face.normal_factor() - least > setup.reach)
+      apart = f.gap;
   }
   require(std::isfinite(least), "no tooth pair faces another");
   all.erase(std::remove_if(all.begin(), all.end(), [](const auto& f) { return f.slices.empty(); }), all.end());

@@ -48,6 +48,7 @@ void PressureElements::add(ToothPair& pair, const FacingFlanks& facing, double l
   const auto& z = bodies_.face.slice_edges();
   const auto& domain = facing.domain;
   const double roll = facing.roll, centre_roll = facing.centre_roll;
+  const auto* measured = bodies_.face.measured(facing.slices.front());
   const double base = flanks.pair().pinion().base_radius(), wheel_base = flanks.pair().wheel().base_radius();
   const double half_width = hertz_half_width(flanks, roll, load / bodies_.face.width(), materials_);
   const auto arc_of = [&](double planet_roll) { return planet_roll * planet_roll / (2 * base); };
@@ -92,7 +93,7 @@ void PressureElements::add(ToothPair& pair, const FacingFlanks& facing, double l
       for (const double side : {-1.0, 1.0}) {
         const double weight = Rule::weights()[q] / 2;
         const auto match =
-            flanks.match(roll_of((low + high) / 2 + side * Rule::abscissa()[q] * (high - low) / 2), roll);
+            flanks.match(roll_of((low + high) / 2 + side * Rule::abscissa()[q] * (high - low) / 2), roll, measured);
         gap += weight * match.gap;
         const double arc = match.wheel_roll * match.wheel_roll / (2 * wheel_base);
         wheel_arc += weight * arc;

@@ -150,8 +150,7 @@ LevelErrors estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSe
     result.*largest = largest_stress_errors(problem, coarser, positions, body, {most_left, notch});
     fill_stress_errors(problem, coarser, body, {most_left, notch}, positions);
   }
-  const bool plane = settings.fidelity == Fidelity::plane || settings.fidelity == Fidelity::resolved_plane;
-  const double model = plane ? plane_error(problem) : 0;
+  const double model = model_error(problem, settings.fidelity);
   const auto nearby = largest_nearby(difference, loads, problem.phases);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     auto& entry = positions[i].entry;

@@ -42,6 +42,11 @@ struct LoadedMeshProblem {
 /// What a plane section leaves out of the stiffness: that, and what teeth beyond the common face support.
 [[nodiscard]] double plane_error(const LoadedMeshProblem& problem);
 
+/// What teeth leave out that end where their tip chamfers begin (ToothProfile), and then touch with another edge. Whole
+/// teeth that do not touch there are stiffer by up to 0.7, 1.0 and 1.2 % at any position, at chamfers of 0.1, 0.2 and
+/// 0.4 modules of a ring; those of planets and suns differ by less.
+[[nodiscard]] double chamfer_error(const LoadedMeshProblem& problem);
+
 /// The wheel, as its supports see it.
 [[nodiscard]] inline SupportedRing supported_ring(const LoadedMeshProblem& problem) {
   return {problem.pair.wheel().teeth(), problem.wheel_support_radius,
@@ -60,6 +65,11 @@ enum class Fidelity { closed_form, plane, solid, resolved_plane, resolved_solid 
 [[nodiscard]] constexpr bool is_solid(Fidelity f) { return f == Fidelity::solid || f == Fidelity::resolved_solid; }
 [[nodiscard]] constexpr bool is_resolved(Fidelity f) {
   return f == Fidelity::resolved_plane || f == Fidelity::resolved_solid;
+}
+
+/// Relative error that is left in the stiffness of a model however fine it is.
+[[nodiscard]] inline double model_error(const LoadedMeshProblem& problem, Fidelity fidelity) {
+  return (is_solid(fidelity) ? 0 : plane_error(problem)) + chamfer_error(problem);
 }
 
 /// What condensed models recover inside the bodies, in a result with a table: its stresses, or its fields as well.

@@ -48,11 +48,13 @@ void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
   check_gauges(problem, fidelity);
   if (is_solid(fidelity)) return;
   for (const auto* gear : {&problem.pair.pinion(), &problem.pair.wheel()}) {
-    if (gear->parameters().lead_crowning != 0 || gear->parameters().lead_slope != 0)
+    if (geometry::modified_along_face(gear->parameters()))
       throw InputError(
-          fmt::format("lead modifications (crowning {:.4g} um, slope {:.4g} um) need a load distribution "
-                      "over the face width: use model = \"solid\"",
+          fmt::format("lead modifications (crowning {:.4g} um, slope {:.4g} um, or measured flanks) need a load "
+                      "distribution over the face width: use model = \"solid\"",
                       1e6 * gear->parameters().lead_crowning, 1e6 * gear->parameters().lead_slope));
+    if (fidelity == Fidelity::closed_form && geometry::measured(gear->parameters()))
+      throw InputError("measured flanks have no closed form: use model = \"plane\"");
     if (gear->helix_angle() != 0)
       throw InputError(fmt::format("helical gears (here of {:.4g} degrees) need solid bodies: use model = \"solid\"",
                                    gear->helix_angle() * 180 / M_PI));
@@ -80,6 +82,15 @@ double plane_error(const LoadedMeshProblem& problem) {
     for (const double side : {overhang->below, overhang->above})
       supported += most * module * (1 - std::exp(-side / module));
   return plane_strain_error(problem) + supported / problem.face_width;
+}
+
+double chamfer_error(const LoadedMeshProblem& problem) {
+  double error = 0;
+  for (const auto* gear : {&problem.pair.pinion(), &problem.pair.wheel()}) {
+    const double modules = gear->parameters().tip_chamfer / gear->parameters().module;
+    error += modules < 0.1 ? 0.08 * modules : 0.008 + 0.02 * (modules - 0.1);
+  }
+  return error;
 }
 
 void check_deflection(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,

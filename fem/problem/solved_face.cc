@@ -27,12 +27,20 @@ bool symmetric_lead(const geometry::Gear& gear, double width) {
   return difference <= 1e-9 * largest;  // round-off of both places, with a wide margin
 }
 
+/// Whether measured flanks of a gear change along its face.
+bool varies(const geometry::Gear& gear) {
+  auto measured = gear.parameters();
+  measured.lead_crowning = measured.lead_slope = 0;
+  return geometry::modified_along_face(measured);
+}
+
 }  // namespace
 
 std::string asymmetry_of_face(const LoadedMeshProblem& problem) {
   const auto& pair = problem.pair;
   if (pair.pinion().helix_angle() != 0) return "helical teeth";
   if (problem.misalignment != 0) return "misaligned flanks";
+  if (varies(pair.pinion()) || varies(pair.wheel())) return "measured flanks";
   if (!centred(problem.planet_overhang) || !centred(problem.wheel_overhang)) return "faces beside each other";
   if (!symmetric_lead(pair.pinion(), problem.face_width + problem.planet_overhang.total()) ||
       !symmetric_lead(pair.wheel(), problem.face_width + problem.wheel_overhang.total()))

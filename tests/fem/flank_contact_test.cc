@@ -253,4 +253,18 @@ BOOST_AUTO_TEST_CASE(tip_relief_opens_the_gap_by_what_was_removed) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_is_removed_normal_to_helical_flanks_is_longer_in_their_section) {
+  auto problem = annulus::tests::with_helix(annulus::tests::sun_mesh(2), 0.35);
+  auto planet = problem.pair.pinion().parameters();
+  const FlankContact plain(problem.pair);
+  planet.tip_relief = 20e-6;
+  planet.tip_relief_length = 3e-3;
+  const FlankContact relieved(GearPair(Gear(planet), problem.pair.wheel(), problem.pair.centre_distance()));
+  const double tip = plain.pair().roll_length_high();
+  BOOST_TEST(std::abs(plain.match(tip, tip).gap) < exact);
+  const double factor = std::cos(plain.pair().pinion().base_helix_angle());
+  BOOST_TEST(factor < 0.96);
+  BOOST_TEST(std::abs(factor * relieved.match(tip, tip).gap - 20e-6) < 1e-12);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

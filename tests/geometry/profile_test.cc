@@ -63,6 +63,28 @@ BOOST_AUTO_TEST_CASE(modifications_add_up) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(profile_slopes_run_from_one_end_of_the_flank_to_the_other) {
+  for (const auto kind : {GearKind::external, GearKind::internal}) {
+    auto p = kind == GearKind::external ? paper_gear(kind, 55, 0.7361) : paper_gear(kind, 162, 0.1516);
+    p.tip_chamfer = 0.5 * units::mm;
+    const auto um = [&](double slope, double u) {
+      p.profile_slope = slope * units::um;
+      const ToothProfile profile{Gear(p)};
+      const double tip = profile.roll_length_tip(), form = profile.roll_length_form();
+      // The flank ends at the chamfer.
+      BOOST_TEST(std::hypot(profile.gear().base_radius(), tip) == profile.gear().tip_form_radius(),
+                 boost::test_tools::tolerance(1e-14));
+      return profile.modification(form + u * (tip - form)) / units::um;
+    };
+    const double rounding = 1e-9;
+    BOOST_TEST(std::abs(um(9, 1) - 9) < rounding);
+    BOOST_TEST(std::abs(um(9, 0)) < rounding);
+    BOOST_TEST(std::abs(um(9, 1.0 / 3) - 3) < rounding);
+    BOOST_TEST(std::abs(um(-9, 0) - 9) < rounding);
+    BOOST_TEST(std::abs(um(-9, 1.0 / 3) - 6) < rounding);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(lead_modifications_add_up) {
   auto p = paper_gear(GearKind::internal, 162, 0.1516);  // face width 88 mm
   p.lead_crowning = 8 * units::um;

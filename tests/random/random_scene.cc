@@ -27,6 +27,7 @@ double usual_number(Draw& draw, const Parameter& p, const Scales& scales) {
   if (ends_with(p, "_phase_deg") || ends_with(p, "angle_deg")) return draw.uniform(0, 360);
   if (ends_with(p, "_N_per_m")) return scales.stiffness_N_per_m * draw.log_uniform(0.03, 30);
   if (ends_with(p, "_Nm_per_rad")) return scales.torsional_Nm_per_rad * draw.log_uniform(0.3, 300);
+  if (ends_with(p, "chamfer_mm")) return scales.module_mm * draw.uniform(0.03, 0.12);
   if (ends_with(p, "length_mm")) return scales.module_mm * draw.uniform(0.1, 0.6);
   if (ends_with(p, "damping_ratio")) return draw.log_uniform(0.01, 0.15);
   if (p.name == "ripple") return draw.log_uniform(0.01, 0.3);
@@ -191,6 +192,8 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"report.author", "a text"},
       {"reference", "a file"},
       {"*.file", "a file"},
+      {"*.left_topography", "a file"},
+      {"*.right_topography", "a file"},
       {"accuracy", "what two runs of a scene differ in"},
       {"stage.centre_distance_mm", "follows from the profile shifts"},
       {"stage.sun_torque_Nm", "the power is drawn"},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "dynamics/system/mesh_excitation.h"
 #include "dynamics/time_integration/integrate.h"
 #include "fem/choice/wanted_model.h"
+#include "geometry/flank_topography.h"
 #include "geometry/power_flow.h"
 
 namespace annulus::app {
@@ -58,8 +60,11 @@ struct GearInput {
   std::optional<double> youngs_modulus, poisson_ratio, density;  ///< instead of those of [material]
   std::optional<double> tip_diameter, root_diameter;
   double root_fillet_factor = 0;
-  double tip_relief = 0, tip_relief_length = 0, profile_crowning = 0;
+  double tip_chamfer = 0, tip_relief = 0, tip_relief_length = 0, profile_crowning = 0, profile_slope = 0;
   double lead_crowning = 0, lead_slope = 0;
+  std::optional<std::string> left_topography, right_topography;  ///< files
+  /// Their contents, of the counter-clockwise side of the teeth and of the other; null where there is none.
+  std::shared_ptr<const geometry::FlankTopography> leading_flank, trailing_flank;
 };
 
 struct HubGearInput : GearInput {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/scene/flank_files.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_kind.h"
 #include "app/scene/scene_limits.h"
@@ -49,6 +50,7 @@ class Reader {
   /// Conditional defaults, lists of one value per planet, derived values; the rules between keys.
   void complete_and_check() {
     check_key_rules(*own_, scene_, problems_);
+    read_flank_files(scene_, problems_);
     kind_->check(scene_, problems_);
     // Paths are looked up among the inputs, which have to be right for that.
     if (problems_.empty()) check_study_keys(scene_, problems_);

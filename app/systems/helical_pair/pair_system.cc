@@ -78,6 +78,7 @@ class PairSystem final : public GearSystem {
     const auto geometry = make_pair_geometry(scene());
     std::vector<Warning> list;
     warn_of_clearance(list, geometry.gears, {"pinion", "wheel"}, "");
+    warn_of_measured_flanks(list, geometry.gears, {"pinion", "wheel"}, "");
     warn_of_undercut(list, geometry.pinion(), "pinion");
     warn_of_undercut(list, geometry.wheel(), "wheel");
     if (scene().dynamics)

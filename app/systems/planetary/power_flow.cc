@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "app/scene/key_checks.h"
 #include "app/systems/planetary/pitch_deviations.h"
@@ -42,6 +43,10 @@ void mirror(Scene& scene) {
     for (auto* first : {&ring.first_pin_angle, &ring.first_spline_angle, &ring.first_bolt_angle})
       if (*first) **first = -**first;
   }
+  const auto swap_flanks = [](GearInput& gear) { std::swap(gear.leading_flank, gear.trailing_flank); };
+  swap_flanks(scene.sun);
+  swap_flanks(scene.planet);
+  for (auto& ring : scene.rings) swap_flanks(ring);
   for (auto& gauge : scene.strain_gauges) {
     gauge.angle = -gauge.angle;
     gauge.offset = -gauge.offset;

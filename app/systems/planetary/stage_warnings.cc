@@ -67,10 +67,14 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
                     "deviations within the tolerances are drawn from a normal distribution, because the scene does not "
                     "mention tolerances.distribution. With \"uniform\" they are larger"});
   warn_of_clearance(list, geometry.sun_mesh(), {"planet", "sun"}, "sun mesh");
+  warn_of_measured_flanks(list, geometry.sun_mesh(), {"planet", "sun"}, "sun mesh");
   warn_of_undercut(list, geometry.sun_mesh().wheel(), "sun");
   warn_of_undercut(list, geometry.sun_mesh().pinion(), "planet");
-  for (const auto& ring : geometry.rings)
-    warn_of_clearance(list, ring.set.ring_mesh(), {"planet", "ring"}, "ring mesh of '" + ring.name + "'");
+  for (const auto& ring : geometry.rings) {
+    const auto mesh = "ring mesh of '" + ring.name + "'";
+    warn_of_clearance(list, ring.set.ring_mesh(), {"planet", "ring"}, mesh);
+    warn_of_measured_flanks(list, ring.set.ring_mesh(), {"planet", "ring"}, mesh);
+  }
   if (scene.dynamics) {
     warn_of_backlash(list, scene.sun_planet.half_backlash.value_or(scene.dynamics->half_backlash), geometry.sun_mesh(),
                      "sun mesh");

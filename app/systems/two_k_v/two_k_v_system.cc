@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "app/model/mesh_figures.h"
+#include "app/model/scene_warnings.h"
 #include "app/plan/plan.h"
 #include "app/scene/example_scenes.h"
 #include "app/systems/shared/mesh_names.h"
+#include "app/systems/two_k_v/two_k_v_model.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"
@@ -86,6 +88,16 @@ class TwoKVSystem final : public GearSystem {
         if (value.quantity == "frequency_1_Hz") published.push_back(value.value);
     return two_k_v_response(variant == 0 ? scene() : *compared_scene(scene()), run_variants()[variant],
                             run.tables_of(variant), published, options);
+  }
+
+  [[nodiscard]] std::vector<Warning> scene_warnings() const override {
+    const auto pair = sun_planet_pair(scene());
+    std::vector<Warning> list;
+    warn_of_clearance(list, pair, {"planet", "sun"}, "sun mesh");
+    warn_of_measured_flanks(list, pair, {"planet", "sun"}, "sun mesh");
+    warn_of_undercut(list, pair.wheel(), "sun");
+    warn_of_undercut(list, pair.pinion(), "planet");
+    return list;
   }
 
   [[nodiscard]] Json summary(const SystemRun& run) const override { return two_k_v_summary(TwoKVResult(run)); }
