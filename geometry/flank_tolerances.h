@@ -18,6 +18,9 @@ inline constexpr int best_flank_class = 1, worst_flank_class = 11;
 /// 15 000 mm, normal modules of 0.5 to 70 mm, helix angles up to 45 degrees.
 [[nodiscard]] double cumulative_pitch_tolerance(const ToleranceGear& gear, int flank_class);
 
+/// f_pT, single pitch tolerance [ISO1328-1, 5.3.1], m: (0.001 d + 0.4 m_n + 5) sqrt(2)^(A - 5) in µm. Throws as above.
+[[nodiscard]] double single_pitch_tolerance(const ToleranceGear& gear, int flank_class);
+
 /// F_rT, runout tolerance: 0.9 of the same expression [ISO1328-1, annex], m. The runout of a gear whose only deviation
 /// is an eccentricity is twice the eccentricity. Throws as above.
 [[nodiscard]] double runout_tolerance(const ToleranceGear& gear, int flank_class);

@@ -214,4 +214,34 @@ BOOST_AUTO_TEST_CASE(lists_that_do_not_fit_are_refused) {
   says(stage("planet_pitch_deviations_um = [" + zeros + "]\n"), "for one planet that stands for all (24)");
 }
 
+BOOST_AUTO_TEST_CASE(deviations_are_drawn_within_a_flank_tolerance_class) {
+  const auto scene =
+      app::parse_scene(stage("sun_pitch_class = 7\nplanet_pitch_class = 6\nring_pitch_class = 8\n"), "scene.toml");
+  const auto& e = scene.errors;
+  const auto largest = [](const std::vector<double>& list) {
+    double most = 0;
+    for (const double value : list) most = std::max(most, std::abs(value));
+    return most;
+  };
+  // [ISO1328-1]: 24 teeth of 4 mm, d = 96 mm: 6.696 um in class 5; 72 teeth, 288 mm: 6.888 um. To whole ones and
+  // halves.
+  BOOST_TEST(e.sun_pitch.size() == 24U);
+  BOOST_TEST(largest(e.sun_pitch) == 13e-6, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(e.planet_pitch.size() == 96U);
+  BOOST_TEST(largest(e.planet_pitch) == 9.5e-6, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(largest(e.ring_pitch) == 19e-6, boost::test_tools::tolerance(1e-6));
+  // Planets have draws of their own, and results state them.
+  BOOST_TEST(e.planet_pitch[0] != e.planet_pitch[24]);
+  BOOST_REQUIRE(scene.find("errors.sun_pitch_deviations_um") != nullptr);
+  BOOST_CHECK(scene.find("errors.sun_pitch_deviations_um")->origin == app::Origin::derived);
+  const auto other = app::parse_scene(stage("sun_pitch_class = 7\npitch_seed = 2\n"), "scene.toml");
+  BOOST_TEST(other.errors.sun_pitch[0] != e.sun_pitch[0]);
+  const auto both =
+      test::scene_refusal(stage("sun_pitch_class = 7\n" + list("sun_pitch_deviations_um", eccentric(24, 0))));
+  BOOST_TEST(both.find("the list states the deviations") != std::string::npos, both);
+  const auto tiny =
+      test::scene_refusal(test::replaced(stage("sun_pitch_class = 7\n"), "module_mm = 4\n", "module_mm = 0.4\n"));
+  BOOST_TEST(tiny.find("errors.sun_pitch_class = 7: ISO 1328-1 has no flank tolerances") != std::string::npos, tiny);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -15,9 +15,13 @@ BOOST_AUTO_TEST_CASE(values_by_hand) {
   const ToleranceGear gear{.teeth = 25, .module = 4e-3, .reference_diameter = 100e-3};
   BOOST_TEST(cumulative_pitch_tolerance(gear, 7) == 41e-6, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(cumulative_pitch_tolerance(gear, 5) == 21e-6, boost::test_tools::tolerance(1e-12));  // 20.5 to whole ones
-  BOOST_TEST(runout_tolerance(gear, 7) == 37e-6, boost::test_tools::tolerance(1e-12));            // 36.9
-  BOOST_TEST(runout_tolerance(gear, 3) == 9e-6, boost::test_tools::tolerance(1e-12));             // 9.225 to halves
-  BOOST_TEST(runout_tolerance(gear, 1) == 4.6e-6, boost::test_tools::tolerance(1e-12));           // 4.6125 to tenths
+  // 0.1 + 1.6 + 5 = 6.7 µm in class 5.
+  BOOST_TEST(single_pitch_tolerance(gear, 5) == 6.5e-6, boost::test_tools::tolerance(1e-12));  // to halves
+  BOOST_TEST(single_pitch_tolerance(gear, 7) == 13e-6, boost::test_tools::tolerance(1e-12));   // 13.4
+  BOOST_TEST(single_pitch_tolerance(gear, 1) == 1.7e-6, boost::test_tools::tolerance(1e-12));  // 1.675
+  BOOST_TEST(runout_tolerance(gear, 7) == 37e-6, boost::test_tools::tolerance(1e-12));         // 36.9
+  BOOST_TEST(runout_tolerance(gear, 3) == 9e-6, boost::test_tools::tolerance(1e-12));          // 9.225 to halves
+  BOOST_TEST(runout_tolerance(gear, 1) == 4.6e-6, boost::test_tools::tolerance(1e-12));        // 4.6125 to tenths
 }
 
 /// The edition of 1995 had other formulas for the same classes: F_r = 0.24 m_n + sqrt(d) + 5.6 µm at class 5. The

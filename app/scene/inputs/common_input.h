@@ -80,6 +80,8 @@ struct ErrorInput {
   std::vector<double> planet_eccentricity, planet_eccentricity_phase, planet_pin_position, planet_pin_position_phase;
   /// m, one per tooth; of planets for all alike or one list after the other.
   std::vector<double> sun_pitch, planet_pitch, ring_pitch;
+  std::optional<int> sun_pitch_class, planet_pitch_class, ring_pitch_class;  ///< they are drawn within
+  int pitch_seed = 0;
   BodyErrorInput sun, ring, carrier;
   double sun_planet_misalignment = 0, ring_planet_misalignment = 0;  ///< over the face width, normal to the flanks
   // Of a helical pair: waves along the normal of the flanks, at mesh frequency and once per turn.

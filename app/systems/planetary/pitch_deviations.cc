@@ -8,12 +8,17 @@
 #include <numeric>
 
 #include "app/scene/scene_declare.h"
+#include "core/errors.h"
 #include "core/units.h"
+#include "dynamics/statistics/pitch_draws.h"
+#include "geometry/flank_tolerances.h"
 
 namespace annulus::app {
 
 namespace {
 
+constexpr const char *sun_class = "errors.sun_pitch_class", *planet_class = "errors.planet_pitch_class",
+                     *ring_class = "errors.ring_pitch_class";
 constexpr const char *sun_key = "errors.sun_pitch_deviations_um", *planet_key = "errors.planet_pitch_deviations_um",
                      *ring_key = "errors.ring_pitch_deviations_um";
 
@@ -42,7 +47,13 @@ class PitchChecks : KeyChecks {
   using KeyChecks::KeyChecks;
 
   void run() {
-    const auto& e = scene_.errors;
+    auto& e = scene_.errors;
+    draw(sun_class, e.sun_pitch_class, sun_key, e.sun_pitch, "sun", scene_.sun.teeth, 1);
+    draw(planet_class, e.planet_pitch_class, planet_key, e.planet_pitch, "planet", scene_.planet.teeth,
+         scene_.stage.planets);
+    // A list is that of all rings.
+    if (!scene_.rings.empty())
+      draw(ring_class, e.ring_pitch_class, ring_key, e.ring_pitch, "ring", scene_.rings.front().teeth, 1);
     if (usable("sun.teeth")) list(sun_key, e.sun_pitch, scene_.sun.teeth, 1);
     if (usable("planet.teeth") && usable("stage.planets"))
       list(planet_key, e.planet_pitch, scene_.planet.teeth, scene_.stage.planets);
@@ -51,6 +62,34 @@ class PitchChecks : KeyChecks {
   }
 
  private:
+  /// Deviations that just keep a flank tolerance class, of as many gears.
+  void draw(const char* key, const std::optional<int>& flank_class, const char* list_key, std::vector<double>& list,
+            const std::string& gear, int teeth, int gears) {
+    if (!flank_class || !usable(key) || given(list_key) || teeth < 3 || !usable("stage.module_mm")) return;
+    const auto& stage = scene_.stage;
+    const geometry::ToleranceGear toleranced{teeth, stage.module, teeth * stage.module / std::cos(stage.helix_angle),
+                                             stage.helix_angle};
+    try {
+      const dynamics::PitchTolerances tolerances{teeth, geometry::single_pitch_tolerance(toleranced, *flank_class),
+                                                 geometry::cumulative_pitch_tolerance(toleranced, *flank_class)};
+      list.clear();
+      for (int n = 1; n <= gears; ++n) {
+        const auto one =
+            dynamics::drawn_pitch_deviations(tolerances, static_cast<std::uint64_t>(scene_.errors.pitch_seed),
+                                             gears > 1 ? fmt::format("{} {}", gear, n) : gear);
+        list.insert(list.end(), one.begin(), one.end());
+      }
+      std::vector<double> shown;
+      for (const double value : list) shown.push_back(value / units::um);
+      set(list_key, shown, Origin::derived,
+          fmt::format("drawn: f_pT = {} µm and F_pT = {} µm of class {} used up [ISO1328-1]",
+                      to_text(tolerances.single / units::um, 3), to_text(tolerances.cumulative / units::um, 3),
+                      *flank_class));
+    } catch (const GeometryError& error) {
+      problem(key, error.what());
+    }
+  }
+
   void list(const char* key, const std::vector<double>& values, int teeth, int gears) {
     if (!given(key) || !usable(key) || values.empty()) return;
     const auto one = static_cast<std::size_t>(teeth), all = one * static_cast<std::size_t>(gears);
@@ -98,20 +137,40 @@ Table pitch_deviation_keys() {
   const std::string meaning =
       ". The distance of each tooth from the one before, counted counter-clockwise, less the pitch, on the reference "
       "circle. Tooth 1 ";
-  const auto declare = [&](const std::string& gear, std::vector<double> ErrorInput::*member, const std::string& whose,
-                           const std::string& first, const std::vector<const char*>& meshes) {
-    auto key =
-        errors.key(gear + "_pitch_deviations_um", member, "Single pitch deviations of the " + whose + meaning + first);
-    key.absent("equal teeth").from(-1000, 1000).longest(20000).not_empty("deviation");
+  const auto only_with = [](Declared& key, const std::vector<const char*>& meshes) {
     key.only_if(given("[dynamics]"), "the lumped model has the errors of single teeth");
     for (const auto* mesh : meshes)
       key.only_if(is(std::string("mesh.") + mesh + ".stiffness", {"computed"}),
                   "a prescribed stiffness has no load shares of tooth pairs");
   };
+  const auto declare = [&](const std::string& gear, std::vector<double> ErrorInput::*member, const std::string& whose,
+                           const std::string& first, const std::vector<const char*>& meshes) {
+    auto key =
+        errors.key(gear + "_pitch_deviations_um", member, "Single pitch deviations of the " + whose + meaning + first);
+    key.absent("equal teeth").from(-1000, 1000).longest(20000).not_empty("deviation");
+    only_with(key, meshes);
+  };
+  const auto declare_class = [&](const std::string& gear, std::optional<int> ErrorInput::*member,
+                                 const std::vector<const char*>& meshes) {
+    auto key = errors.key(gear + "_pitch_class", member,
+                          "Flank tolerance class of ISO 1328-1 of the " + gear +
+                              (gear == "planet" ? "s, each of which has its own deviations" : "") +
+                              ", within which its pitch deviations are drawn: a wave once per turn and independent "
+                              "ones, which use up the tolerances of single and cumulative pitch.");
+    key.absent("not drawn").from(geometry::best_flank_class, geometry::worst_flank_class);
+    key.refused_if(given("errors." + gear + "_pitch_deviations_um"), "the list states the deviations");
+    only_with(key, meshes);
+  };
   declare("sun", &ErrorInput::sun_pitch, "sun", "meets planet 1 at time 0.", {"sun_planet"});
   declare("planet", &ErrorInput::planet_pitch, "planets: for one that stands for all, or for each of them in turn",
           "meets the sun at time 0.", {"sun_planet", "ring_planet"});
   declare("ring", &ErrorInput::ring_pitch, "ring", "meets planet 1 at time 0.", {"ring_planet"});
+  declare_class("sun", &ErrorInput::sun_pitch_class, {"sun_planet"});
+  declare_class("planet", &ErrorInput::planet_pitch_class, {"sun_planet", "ring_planet"});
+  declare_class("ring", &ErrorInput::ring_pitch_class, {"ring_planet"});
+  errors.key("pitch_seed", &ErrorInput::pitch_seed, "Other seeds give other draws within the pitch classes.")
+      .fallback(1, "any number will do")
+      .from(0, 2147483647);
   return errors.done();
 }
 
