@@ -68,29 +68,19 @@ bool FlankTopography::varies_along_face() const {
 }
 
 FlankTopography::Slice FlankTopography::slice(double low, double high) const {
-  std::vector<double> mean, least;
+  if (!varies_along_face()) return {FlankCurve(radii_, {removed_.col(0).begin(), removed_.col(0).end()})};
+  std::vector<double> mean;
+  std::vector<std::vector<double>> across(slice_places);
   for (Eigen::Index i = 0; i < removed_.rows(); ++i) {
-    std::vector<double> along(positions_.size());
-    for (std::size_t j = 0; j < along.size(); ++j) along[j] = removed_(i, static_cast<Eigen::Index>(j));
-    if (along.size() == 1) {
-      mean.push_back(along.front());
-      least.push_back(along.front());
-      continue;
-    }
-    const FlankCurve curve(positions_, std::move(along));
+    const FlankCurve curve(positions_, {removed_.row(i).begin(), removed_.row(i).end()});
     // Of the mean of a piece of a cubic nothing is left out, and where the grid has several in a slice little.
-    double smallest = std::min(curve(low), curve(high));
-    const double whole = boost::math::quadrature::gauss<double, 15>::integrate(
-        [&](double z) {
-          const double value = curve(z);
-          smallest = std::min(smallest, value);
-          return value;
-        },
-        low, high);
-    mean.push_back(whole / (high - low));
-    least.push_back(smallest);
+    mean.push_back(boost::math::quadrature::gauss<double, 15>::integrate(curve, low, high) / (high - low));
+    for (int k = 0; k < slice_places; ++k)
+      across[static_cast<std::size_t>(k)].push_back(curve(low + (high - low) * k / (slice_places - 1)));
   }
-  return {FlankCurve(radii_, std::move(mean)), FlankCurve(radii_, std::move(least))};
+  Slice slice{FlankCurve(radii_, std::move(mean))};
+  for (auto& values : across) slice.across.emplace_back(radii_, std::move(values));
+  return slice;
 }
 
 FlankTopography read_flank_topography(const std::filesystem::path& file) {

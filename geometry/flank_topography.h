@@ -38,8 +38,11 @@ class FlankTopography {
   [[nodiscard]] bool varies_along_face() const;
 
   struct Slice {
-    FlankCurve mean, least;  ///< of the slice, at every radius
+    FlankCurve mean;
+    /// At `slice_places` equally spaced positions from its low end to its high one; none where they are equal.
+    std::vector<FlankCurve> across{};
   };
+  static constexpr int slice_places = 9;
   /// Between two positions (m, from the middle of the gear's face), by local cubics too.
   [[nodiscard]] Slice slice(double low, double high) const;
 

@@ -24,6 +24,9 @@ struct GearParameters {
   std::optional<double> root_diameter{};  ///< m; absent: dedendum of 1.25 modules
   double root_fillet_factor = 0.38;       ///< rack tip radius (external) or fillet radius (internal, in the
                                           ///< transverse section) in modules; limited to the full root rounding
+  double protuberance = 0;                ///< m, normal to the flank: how far the rounding of the generating rack's
+                                          ///< tip reaches beyond the finished flank; external gears only
+  double protuberance_angle = 0;          ///< rad, of the rack's flank from there on, below the pressure angle
   double tip_chamfer = 0;                 ///< m, radial height of the chamfers at the tip (h_K)
   double tip_relief = 0;                  ///< m, material removed at the tip, normal to the flank
   double tip_relief_length = 0;           ///< m, along the line of action, linear relief

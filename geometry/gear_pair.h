@@ -26,8 +26,8 @@ struct CommonFace {
 /// transverse section. Construction throws GeometryError with the reason: different base pitches or helix angles, hands
 /// that do not fit (opposite ones for an external pair, equal ones for an internal pair), no working angle, negative
 /// backlash, tip interference (a tip that reaches below the mate's form circle or into its root), involute
-/// interference, interfering tips of internal gears with few teeth difference, faces that do not overlap, total contact
-/// ratio below 1.
+/// interference, interfering tips of internal gears with few teeth difference (taken without their chamfers), faces
+/// that do not overlap, total contact ratio below 1.
 class GearPair {
  public:
   /// `wheel` is the sun (external) or the ring (internal). Centre distance in m. In planetary sets the sun drives the

@@ -103,7 +103,8 @@ RootSection root_section(const GearPair& pair, const Gear& gear, const std::opti
     rho_fp = cutter->tip_radius + std::pow(cutter->profile_shift + h_fp - cutter->tip_radius, 1.95) /
                                       (3.156 * std::pow(1.036, cutter->teeth));
 
-  const double e = std::numbers::pi / 4 - h_fp * std::tan(alpha) - (1 - std::sin(alpha)) * rho_fp / std::cos(alpha);
+  const double e = std::numbers::pi / 4 - h_fp * std::tan(alpha) + p.protuberance / p.module / std::cos(alpha) -
+                   (1 - std::sin(alpha)) * rho_fp / std::cos(alpha);
   const double g = rho_fp - h_fp + x;
   const double tangent = internal ? std::numbers::pi / 6 : std::numbers::pi / 3;
   const double theta = tangent_angle(g, z, 2 / z * (std::numbers::pi / 2 - e) - tangent,

@@ -52,7 +52,7 @@ void RootFillet::generate(const Gear& gear) {
   // Half the rack tooth at its tip, which cuts the root circle, in the normal section; the rack's datum line lies x m
   // outside the pitch line.
   const double depth = reference_radius_ + p.profile_shift * m - root_radius_;
-  const double half_tip = std::numbers::pi * m / 4 - depth * std::tan(alpha);
+  const double half_tip = std::numbers::pi * m / 4 - depth * std::tan(alpha) + p.protuberance / std::cos(alpha);
   // From the sharp rack corner to the point where its rounding starts, per unit of radius.
   const double setback = (1 - std::sin(alpha)) / std::cos(alpha);
   radius_ = std::min(p.root_fillet_factor * m, (half_tip - min_root_land * m) / setback);
@@ -68,7 +68,9 @@ void RootFillet::generate(const Gear& gear) {
   corner_width_ = radius_ * widening;
   beta_end_ = half_pi - transverse;
   form_roll_ = reference_radius_ * std::sin(transverse) - rack_contact(beta_end_).reach;
-  if (form_roll_ < 0) cut_involute(gear, transverse);
+  const bool protrudes = p.protuberance > least_protuberance * m;
+  if (protrudes) add_ramp(gear);
+  if (form_roll_ < 0 || protrudes) cut_involute(gear, transverse);
   // Regular envelope: the radius has to grow along the whole fillet (only far too large positive shifts fail).
   const double c = std::cos(beta_end_), reach = rack_contact(beta_end_).reach;
   const double curvature_radius =
@@ -81,32 +83,60 @@ void RootFillet::generate(const Gear& gear) {
   }
 }
 
+void RootFillet::add_ramp(const Gear& gear) {
+  const auto& p = gear.parameters();
+  // Both flanks of the transverse rack: tan of their angles.
+  const double main = std::tan(gear.transverse_pressure_angle()),
+               ramp = std::tan(p.protuberance_angle) / std::cos(p.helix_angle);
+  // The protuberance moves the rack's flank outwards by this; the corner's contact with it lies above its contact with
+  // the flatter flank's.
+  const double moved = p.protuberance / std::cos(p.pressure_angle) / std::cos(p.helix_angle);
+  const auto on_corner = [&](double beta) {
+    const auto contact = rack_contact(beta);
+    return Eigen::Vector2d(contact.phi * reference_radius_ + contact.reach * std::sin(beta),
+                           contact.reach * std::cos(beta));  // x, depth
+  };
+  const Eigen::Vector2d touch = on_corner(half_pi - std::atan(main));
+  beta_end_ = half_pi - std::atan(ramp);
+  const Eigen::Vector2d start = on_corner(beta_end_);
+  // x over the depth: touch.x - moved + (touch.y - depth) main and start.x + (start.y - depth) ramp.
+  const double beyond = start.x() - (touch.x() - moved + (touch.y() - start.y()) * main);
+  ramp_ = std::max(0.0, beyond / (main - ramp)) / std::cos(std::atan(ramp));
+  ramp_share_ = ramp_ / (ramp_ + corner_width_ * beta_end_);
+}
+
 void RootFillet::cut_involute(const Gear& gear, double transverse) {
   const auto& p = gear.parameters();
-  const double whole = beta_end_;
-  const auto at = [&](double beta) {
-    const double t = 1 - beta / whole;  // beta_end_ is still the whole one
-    return point(t);
-  };
   // Polar angle of the fillet beyond the involute at its radius: negative inside of the tooth. The involute has no part
   // below the base circle.
-  const auto beyond = [&](double beta) {
-    const Eigen::Vector2d q = at(beta);
+  const auto beyond = [&](double t) {
+    const Eigen::Vector2d q = point(t);
     return std::atan2(q.y(), q.x()) - gear.tooth_half_angle(std::max(q.norm(), base_radius_));
   };
-  const auto [deepest, depth] = boost::math::tools::brent_find_minima(beyond, whole / 2, whole, 40);
-  const double last = beyond(whole);
+  const double middle = ramp_share_ + (1 - ramp_share_) / 2;
+  const auto [deepest, depth] = boost::math::tools::brent_find_minima(beyond, 0.0, middle, 40);
+  const double last = beyond(0);
   constexpr double most = 2;  // modules of roll length; cells of deeper undercuts were not looked at
   if (depth < 0 && last > 0) {
-    const double beta = bracketed_root(beyond, deepest, whole, depth, last), radius = at(beta).norm();
+    const double t = bracketed_root(beyond, 0.0, deepest, last, depth), radius = point(t).norm();
     const double over = std::sqrt(std::max(0.0, (radius - base_radius_) * (radius + base_radius_)));
     if (radius > base_radius_ && -form_roll_ <= most * p.module) {
-      undercut_ = true;
+      undercut_ = form_roll_ < 0;
       form_roll_ = over;
-      beta_end_ = beta;
+      if (t < ramp_share_) {
+        ramp_ *= 1 - t / ramp_share_;
+        ramp_share_ = ramp_ / (ramp_ + corner_width_ * beta_end_);
+      } else {
+        beta_end_ *= (1 - t) / (1 - ramp_share_);
+        ramp_ = ramp_share_ = 0;
+      }
       return;
     }
   }
+  if (p.protuberance > 0 && -form_roll_ <= most * p.module)
+    throw GeometryError(fmt::format(
+        "the protuberance of {:.4f} mm leaves no involute on the external gear with {} teeth; reduce it or its angle",
+        p.protuberance / units::mm, p.teeth));
   throw GeometryError(fmt::format(
       "the external gear with {} teeth is undercut: the rack corner reaches {:.4f} mm beyond the start of the "
       "involute, of which up to {} modules are modelled; raise the profile shift from {:.4f} by {:.4f} or use more "
@@ -123,6 +153,19 @@ RootFillet::RackContact RootFillet::rack_contact(double beta) const {
   const double x = corner_x_ + corner_width_ * corner_width_ * s / support;
   const double depth = corner_depth_ + radius_ * radius_ * c / support;
   return {(x - depth * s / c) / reference_radius_, depth / c};
+}
+
+std::pair<RootFillet::RackContact, double> RootFillet::contact(double t) const {
+  if (t >= ramp_share_) {
+    const double beta = (1 - t) / (1 - ramp_share_) * beta_end_;
+    return {rack_contact(beta), beta};
+  }
+  // Along the straight flank the normal stays; the place on it moves out of the corner.
+  auto at = rack_contact(beta_end_);
+  const double length = (1 - t / ramp_share_) * ramp_, c = std::cos(beta_end_), s = std::sin(beta_end_);
+  at.reach -= length * s / c;
+  at.phi += (length * c + length * s * s / c) / reference_radius_;
+  return {at, beta_end_};
 }
 
 void RootFillet::inscribe(const Gear& gear) {
@@ -169,17 +212,16 @@ double RootFillet::root_angle() const {
 
 Eigen::Vector2d RootFillet::point(double t) const {
   if (kind_ == GearKind::internal) return centre_ + radius_ * radial_direction(arc_start_ + t * arc_sweep_);
-  const double beta = (1 - t) * beta_end_;
-  const auto [phi, reach] = rack_contact(beta);
-  const Eigen::Vector2d pole = radial_direction(space_angle_ - phi);
+  const auto [at, beta] = contact(t);
+  const Eigen::Vector2d pole = radial_direction(space_angle_ - at.phi);
   const Eigen::Vector2d towards_tooth(pole.y(), -pole.x());
-  return (reference_radius_ - reach * std::cos(beta)) * pole + reach * std::sin(beta) * towards_tooth;
+  return (reference_radius_ - at.reach * std::cos(beta)) * pole + at.reach * std::sin(beta) * towards_tooth;
 }
 
 Eigen::Vector2d RootFillet::tangent(double t) const {
   if (kind_ == GearKind::internal) return radial_direction(arc_start_ + t * arc_sweep_ + half_pi);
-  const double beta = (1 - t) * beta_end_;
-  return -radial_direction(space_angle_ - rack_contact(beta).phi - half_pi + beta);
+  const auto [at, beta] = contact(t);
+  return -radial_direction(space_angle_ - at.phi - half_pi + beta);
 }
 
 double RootFillet::nearest(const Eigen::Vector2d& q) const {
@@ -189,7 +231,7 @@ double RootFillet::nearest(const Eigen::Vector2d& q) const {
     return std::clamp(angle / arc_sweep_, 0.0, 1.0);
   }
   // (q - pole) . tangent = 0, with pole . tangent = r sin(beta) in closed form.
-  const auto along = [&](double t) { return q.dot(tangent(t)) + reference_radius_ * std::sin((1 - t) * beta_end_); };
+  const auto along = [&](double t) { return q.dot(tangent(t)) + reference_radius_ * std::sin(contact(t).second); };
   const double at_form = along(0);
   const double at_root = along(1);
   if (at_form <= 0) return 0;

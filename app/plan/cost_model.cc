@@ -112,7 +112,7 @@ double peak_memory(const CostRun& size, int threads) {
   // States of pins, bolts or spline teeth at every position; six rings of 38 to 101 took 0.99 to 1.42 times the sum.
   constexpr double per_support = 1.8e-4;
   const bool states = size.work == Work::closed_form || size.work == Work::plane;
-  return law.base_MB + law.per_unknown_MB * size.unknowns / 1e4 * (threads > 1 ? 1 + overlap : 1) +
+  return law.base_MB + size.held_MB + law.per_unknown_MB * size.unknowns / 1e4 * (threads > 1 ? 1 + overlap : 1) +
          (states ? per_support * size.supports * size.contacts : 0);
 }
 

@@ -40,6 +40,7 @@ struct CostRun {
   double supports = 0;  ///< in every contact problem (fem::support_forces)
   double before_s = 0;  ///< processor time of linear elements that are solved first and not accurate enough
   double motion_s = 0;  ///< processor time of a response, predicted from its steps and samples and not by a law
+  double held_MB = 0;   ///< memory of a response beside its law
   int tasks = 1;        ///< that threads can share
   double wall_s = 0;
   double processor_s = 0;  ///< of all threads; 0: not measured

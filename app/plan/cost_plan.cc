@@ -118,9 +118,11 @@ Work work_of(const MeshModel& model) {
   constexpr Work works[] = {Work::closed_form, Work::plane, Work::solid, Work::resolved_plane, Work::resolved_solid};
   const auto fidelity = model.settings.fidelity;
   if (fidelity != fem::Fidelity::solid) return works[static_cast<int>(fidelity)];
-  // Every slice of helical teeth has elements of its own. Half of a face has fewer slices with the same section: the
-  // contact falls with them faster than with a coarser section.
-  if (model.problem->pair.pinion().helix_angle() != 0) return Work::solid_helical;
+  // Every slice of helical teeth and of measured flanks has elements of its own. Half of a face has fewer slices with
+  // the same section: the contact falls with them faster than with a coarser section.
+  const auto &pinion = model.problem->pair.pinion(), &wheel = model.problem->pair.wheel();
+  if (pinion.helix_angle() != 0 || geometry::measured(pinion.parameters()) || geometry::measured(wheel.parameters()))
+    return Work::solid_helical;
   return fem::solved_face(*model.problem, model.settings).half ? Work::solid_half : Work::solid;
 }
 

@@ -23,6 +23,8 @@ geometry::GearParameters gear_parameters(const Scene& scene, const GearInput& in
           .tip_diameter = input.tip_diameter,
           .root_diameter = input.root_diameter,
           .root_fillet_factor = input.root_fillet_factor,
+          .protuberance = input.protuberance,
+          .protuberance_angle = input.protuberance_angle.value_or(scene.stage.pressure_angle / 2),
           .tip_chamfer = input.tip_chamfer,
           .tip_relief = input.tip_relief,
           .tip_relief_length = input.tip_relief_length,

@@ -41,6 +41,8 @@ void add_gear(ContentId& id, const std::string& name, const geometry::Gear& gear
   id.add(name + ".tip_relief", p.tip_relief).add(name + ".tip_relief_length", p.tip_relief_length);
   id.add(name + ".profile_crowning", p.profile_crowning).add(name + ".helix_angle", p.helix_angle);
   id.add(name + ".lead_crowning", p.lead_crowning).add(name + ".lead_slope", p.lead_slope);
+  if (p.protuberance != 0) id.add(name + ".protuberance", p.protuberance).add(name + ".ramp", p.protuberance_angle);
+  if (p.tip_chamfer != 0) id.add(name + ".tip_chamfer", p.tip_chamfer);
   if (p.profile_slope != 0) id.add(name + ".profile_slope", p.profile_slope);
   if (p.leading_topography) add_topography(id, name + ".leading", *p.leading_topography);
   if (p.trailing_topography) add_topography(id, name + ".trailing", *p.trailing_topography);

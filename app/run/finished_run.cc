@@ -8,6 +8,7 @@
 #include "app/results/content_id.h"
 #include "app/results/program_identity.h"
 #include "app/scene/scene.h"
+#include "app/scene/scene_files.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/log.h"
@@ -31,10 +32,9 @@ std::string run_id(const Scene& scene, const RunOptions& options) {
   for (const auto& input : scene.inputs)
     id.add(input.ring + input.key,
            fmt::format("{} {} {} {}", to_text(input.value), to_text(input.origin), input.note, input.assumed));
-  for (const auto& input : scene.inputs)
-    if (const auto* name = std::get_if<std::string>(&input.value);
-        name && (input.key == "reference" || input.key.ends_with(".file")))
-      id.add(*name, stamp(scene.file.parent_path() / *name));
+  auto files = input_files(scene);
+  if (scene.reference) files.push_back(*scene.reference);
+  for (const auto& name : files) id.add(name, stamp(scene.file.parent_path() / name));
   return id.id();
 }
 

@@ -31,8 +31,10 @@ class FlankFiles : KeyChecks {
                                                          const Entry& entry) {
     if (!name) return nullptr;
     try {
-      if (scene_.fidelity == Fidelity::closed_form)
-        throw InputError("measured flanks have no closed form; use another model than model = \"closed_form\"");
+      if (scene_.fidelity == Fidelity::closed_form || scene_.fidelity == Fidelity::resolved)
+        throw InputError(
+            "formulas and resolved models do not cover measured flanks; use model = \"automatic\", \"plane\" or "
+            "\"solid\"");
       return std::make_shared<const geometry::FlankTopography>(
           geometry::read_flank_topography(file_below_scene(scene_, *name)));
     } catch (const InputError& error) {

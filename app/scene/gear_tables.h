@@ -125,6 +125,19 @@ void declare_flanks(Declarations<Section>& t, Flanks flanks) {
             : "Tip radius of the generating rack in modules.")
       .fallback(0.38, "ISO 53 profile A")
       .above(0, 0.6);
+  if (flanks == Flanks::external) {
+    t.key("protuberance_um", &Section::protuberance,
+          "Protuberance of the tool beyond the finished flank: p_r less the machining allowance (s_pr of ISO 6336-3). "
+          "It "
+          "leaves an undercut in the root, without which grinding would leave a notch.")
+        .fallback(0.0, "a rack without protuberance")
+        .from(0, 5000);
+    t.key("protuberance_angle_deg", &Section::protuberance_angle,
+          "Pressure angle of the tool between its tip and its main flank.")
+        .from(2, 34)
+        .only_if(given("protuberance_um"))
+        .absent("half of stage.pressure_angle_deg, as usual hobs");
+  }
   t.key("tip_chamfer_mm", &Section::tip_chamfer,
         "Radial height of the chamfers between flanks and tip circle, at 45 degrees. The flanks end where they begin.")
       .fallback(0.0, "sharp tips")

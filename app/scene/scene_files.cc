@@ -63,6 +63,15 @@ std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, 
   }
 }
 
+std::vector<std::string> input_files(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& input : scene.inputs)
+    if (const auto* name = std::get_if<std::string>(&input.value);
+        name != nullptr && (input.key.ends_with(".file") || input.key.ends_with("_topography")))
+      names.push_back(*name);
+  return names;
+}
+
 StiffnessTable given_table(const Scene& scene, const std::string& mesh, const std::string& name) {
   return with_file(scene, "mesh." + mesh + ".file", name,
                    [&](const std::filesystem::path& file) { return import_table(file, mesh); });

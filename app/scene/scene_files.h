@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/scene/scene.h"
 #include "core/stiffness_table.h"
@@ -14,6 +15,10 @@ namespace annulus::app {
 
 /// The same; errors give the reason alone, without place and key.
 [[nodiscard]] std::filesystem::path file_below_scene(const Scene& scene, const std::string& name);
+
+/// The files that inputs name, but for the reference: tables (mesh.NAME.file) and measured flanks, relative to the
+/// scene.
+[[nodiscard]] std::vector<std::string> input_files(const Scene& scene);
 
 /// The stiffness table in the file that [mesh.NAME] names. Throws InputError, with place and key, when it cannot be
 /// used.

@@ -8,6 +8,7 @@
 #include "app/model/run_options.h"
 #include "app/process/progress.h"
 #include "app/results/content_id.h"
+#include "app/scene/scene_files.h"
 #include "app/study/studies.h"
 #include "app/study/study_points.h"
 #include "core/errors.h"
@@ -219,6 +220,11 @@ void write_searches(const StudySubject& subject, const OptimiseResults& result, 
     csv.write(folder / fmt::format("{}_{}_history.csv", run.optimiser, run.repeat));
   }
   write_file(folder / "best.toml", scene_text(subject.scene(), objective.overrides(result.best.x)));
+  // Its paths are relative to it.
+  for (const auto& name : input_files(subject.scene())) {
+    std::filesystem::create_directories((folder / name).parent_path());
+    write_file(folder / name, read_file(subject.scene().file.parent_path() / name));
+  }
 }
 
 }  // namespace

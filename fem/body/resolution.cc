@@ -21,7 +21,7 @@ double flank_length(const geometry::Gear& gear) {
 
 /// m, on the reference circle, or at the end of the flank next to it: a large profile shift moves teeth beyond it.
 double tooth_thickness(const geometry::Gear& gear) {
-  const auto [low, high] = std::minmax({gear.form_radius(), gear.tip_radius()});
+  const auto [low, high] = std::minmax({gear.form_radius(), gear.tip_form_radius()});
   return gear.tooth_thickness(std::clamp(gear.reference_radius(), low, high));
 }
 

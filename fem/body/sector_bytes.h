@@ -39,7 +39,7 @@ inline void add_sector_inputs(ByteWriter& inputs, const geometry::Mesh& mesh, co
   const auto& p = gear.parameters();
   // Modifications of the flanks are gaps of the contact, the mesh knows none.
   inputs(p.kind, p.teeth, p.module, p.pressure_angle, p.profile_shift, gear.tip_form_radius(), gear.root_radius(),
-         gear.form_radius(), p.root_fillet_factor, p.helix_angle);
+         gear.form_radius(), p.root_fillet_factor, p.helix_angle, p.protuberance, p.protuberance_angle);
   inputs(support_radius, material.youngs_modulus, material.poisson_ratio);
   if (options.outputs.count(SectorOutput::mass) > 0) inputs(material.density);
   inputs(options.degree, options.refinements, options.held, options.flank, options.symmetric_end,

@@ -18,6 +18,8 @@ geometry::Gear transverse_section(const geometry::Gear& gear) {
   p.pressure_angle = gear.transverse_pressure_angle();
   p.profile_shift *= c;
   p.root_fillet_factor *= c;
+  p.protuberance *= std::cos(gear.transverse_pressure_angle()) / (std::cos(gear.parameters().pressure_angle) * c);
+  p.protuberance_angle = std::atan(std::tan(p.protuberance_angle) / c);
   p.tip_diameter = 2 * gear.tip_radius();
   p.root_diameter = 2 * gear.root_radius();
   p.helix_angle = 0;

@@ -4,6 +4,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <limits>
 
 namespace annulus::fem {
 
@@ -41,9 +42,12 @@ ContactFace::ContactFace(const FlankContact& flanks, std::vector<double> slice_e
                &wheel_side = flanks_.wheel_flank() == geometry::Boundary::leading_flank
                                  ? wheel.parameters().leading_topography
                                  : wheel.parameters().trailing_topography;
-    if (planet_side || wheel_side)
-      measured_.push_back({measured_slice(planet_side, planet, gaps.planet_below, low, high),
-                           measured_slice(wheel_side, wheel, gaps.wheel_below, low, high)});
+    if (!planet_side && !wheel_side) continue;
+    measured_.push_back({measured_slice(planet_side, planet, gaps.planet_below, low, high),
+                         measured_slice(wheel_side, wheel, gaps.wheel_below, low, high)});
+    auto& across = lead_across_.emplace_back();
+    for (int k = 0; k < geometry::FlankTopography::slice_places; ++k)
+      across.push_back(gap(low + (high - low) * k / (geometry::FlankTopography::slice_places - 1)));
   }
 }
 
@@ -53,13 +57,19 @@ double ContactFace::smallest_lead_gap() const {
 
 double ContactFace::measured_dip(int slice, double planet_roll, double wheel_roll) const {
   if (measured_.empty()) return 0;
-  const auto dip = [](const geometry::FlankTopography::Slice& side, const geometry::Gear& gear, double roll) {
-    const double radius = std::hypot(gear.base_radius(), roll);
-    return side.mean(radius) - side.least(radius);
-  };
+  const auto &planet = measured_[slice].planet, &wheel = measured_[slice].wheel;
+  if (planet.across.empty() && wheel.across.empty()) return 0;
   const auto& pair = flanks_.pair();
-  return dip(measured_[slice].planet, pair.pinion(), planet_roll) +
-         dip(measured_[slice].wheel, pair.wheel(), wheel_roll);
+  const double planet_radius = std::hypot(pair.pinion().base_radius(), planet_roll),
+               wheel_radius = std::hypot(pair.wheel().base_radius(), wheel_roll);
+  const auto beyond_mean = [](const geometry::FlankTopography::Slice& side, std::size_t place, double radius) {
+    return side.across.empty() ? 0 : side.across[place](radius) - side.mean(radius);
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < lead_across_[slice].size(); ++k)
+    least = std::min(
+        least, lead_across_[slice][k] + beyond_mean(planet, k, planet_radius) + beyond_mean(wheel, k, wheel_radius));
+  return smallest_lead_gap_[slice] - least;
 }
 
 double ContactFace::slice_roll(int slice) const {

@@ -30,7 +30,8 @@ class ContactFace {
   [[nodiscard]] const FlankDeviations* measured(int slice) const {
     return measured_.empty() ? nullptr : &measured_[slice];
   }
-  /// m, normal to the flanks, by how much these come nearer to each other within a slice than they do on its mean.
+  /// m, normal to the flanks: by how much these come nearer to each other within a slice, at these rolls, than the
+  /// means of the measured flanks and smallest_lead_gap() say; negative where both do not add up.
   [[nodiscard]] double measured_dip(int slice, double planet_roll, double wheel_roll) const;
   /// Whether flanks face each other in every slice in another way.
   [[nodiscard]] bool varies() const { return helical() || !measured_.empty(); }
@@ -44,7 +45,8 @@ class ContactFace {
   const FlankContact& flanks_;
   std::vector<double> slice_edges_;
   std::vector<double> lead_gap_, smallest_lead_gap_;
-  std::vector<FlankDeviations> measured_;  ///< of every slice, or none
+  std::vector<FlankDeviations> measured_;         ///< of every slice, or none
+  std::vector<std::vector<double>> lead_across_;  ///< of these, m, at FlankTopography::slice_places positions
   double normal_factor_;
   double roll_per_z_;
 };

@@ -46,6 +46,14 @@ void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
     throw InputError(fmt::format("a ring structure ({}) belongs to the ring mesh, and the pair is external",
                                  problem.structure.words().description));
   check_gauges(problem, fidelity);
+  // Meshes of the resolved model are made for contacts of flanks without them.
+  if (fidelity == Fidelity::closed_form || is_resolved(fidelity))
+    for (const auto* gear : {&problem.pair.pinion(), &problem.pair.wheel()})
+      if (geometry::measured(gear->parameters()))
+        throw InputError(
+            fmt::format("the model {} does not cover measured flanks: use model = \"automatic\", \"plane\" or "
+                        "\"solid\"",
+                        fidelity_name(fidelity)));
   if (is_solid(fidelity)) return;
   for (const auto* gear : {&problem.pair.pinion(), &problem.pair.wheel()}) {
     if (geometry::modified_along_face(gear->parameters()))
@@ -53,8 +61,6 @@ void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
           fmt::format("lead modifications (crowning {:.4g} um, slope {:.4g} um, or measured flanks) need a load "
                       "distribution over the face width: use model = \"solid\"",
                       1e6 * gear->parameters().lead_crowning, 1e6 * gear->parameters().lead_slope));
-    if (fidelity == Fidelity::closed_form && geometry::measured(gear->parameters()))
-      throw InputError("measured flanks have no closed form: use model = \"plane\"");
     if (gear->helix_angle() != 0)
       throw InputError(fmt::format("helical gears (here of {:.4g} degrees) need solid bodies: use model = \"solid\"",
                                    gear->helix_angle() * 180 / M_PI));

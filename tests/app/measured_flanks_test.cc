@@ -9,6 +9,7 @@
 #include "app/model/gear_system.h"
 #include "app/plan/gear_geometry.h"
 #include "app/plan/plan.h"
+#include "app/run/finished_run.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "core/errors.h"
@@ -116,7 +117,7 @@ BOOST_AUTO_TEST_CASE(other_files_are_other_results) {
   const Scenes scenes;
   const auto id = [&] {
     const auto scene = scenes.read(stage("left_topography = \"flank.csv\"\n"));
-    return app::sun_mesh_model(scene, app::make_geometry(scene)).id();
+    return app::sun_mesh_model(scene, app::make_geometry(scene)).id() + app::run_id(scene, {});
   };
   scenes.file("flank.csv", sloped(scenes, 8));
   const auto first = id();
@@ -139,7 +140,8 @@ BOOST_AUTO_TEST_CASE(files_that_cannot_be_used_are_refused_with_line_and_key) {
   scenes.file("flank.csv", sloped(scenes, 8));
   const auto formulas =
       test::replaced(stage("left_topography = \"flank.csv\"\n"), "model = \"plane\"", "model = \"closed_form\"");
-  BOOST_TEST(scenes.refusal(formulas).find("no closed form") != std::string::npos, scenes.refusal(formulas));
+  BOOST_TEST(scenes.refusal(formulas).find("do not cover measured flanks") != std::string::npos,
+             scenes.refusal(formulas));
   // Flanks that change along the face have no plane section.
   std::string uneven = "diameter_mm,position_mm,removed_um\n";
   for (int i = 0; i < 4; ++i)

@@ -1,5 +1,7 @@
 #include "geometry/gear.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -153,6 +155,11 @@ BOOST_AUTO_TEST_CASE(impossible_gears_are_refused_with_the_reason) {
   p = plain_gear(GearKind::external, 4);
   refuse(p, "teeth");
   refuse(helical(plain_gear(GearKind::external, 30), -46 * units::deg), "helix angle");
+  p = plain_gear(GearKind::external, 30);
+  p.tip_chamfer = 1.5 * units::mm;
+  refuse(p, "leaves no tip");
+  p.tip_chamfer = -1 * units::um;
+  refuse(p, "negative tip chamfer");
 }
 
 // The rack that reaches beyond the start of the involute takes some of it away.
@@ -189,6 +196,8 @@ BOOST_AUTO_TEST_SUITE(generation)
 /// teeth: a point of the transverse section at x has the distance of the point at x cos(beta) in the normal section.
 struct RackTooth {
   double radius, corner_x, corner_y, alpha;
+  /// Of the protuberance: how far its corner lies further out, and the angle of its flank.
+  double further = 0, ramp = 0;
 
   RackTooth(const GearParameters& p, double pitch_radius, double root_radius)
       : radius(p.root_fillet_factor * p.module),
@@ -198,13 +207,18 @@ struct RackTooth {
     // / 2.
     const double datum = p.profile_shift * p.module;
     corner_x = std::numbers::pi * p.module / 4 - (datum - corner_y) * std::tan(alpha) - radius / std::cos(alpha);
+    further = p.protuberance / std::cos(alpha);
+    ramp = p.protuberance_angle;
   }
   /// Signed distance, negative inside the rack tooth (near its surface, outside of the wedge).
   [[nodiscard]] double distance(double x, double y) const {
-    const double dx = std::abs(x) - corner_x;
-    const double dy = y - corner_y;
-    const double across = dx * std::cos(alpha) - dy * std::sin(alpha);
-    const double along = dx * std::sin(alpha) + dy * std::cos(alpha);
+    const double main = distance(std::abs(x) - corner_x, y - corner_y, alpha);
+    return further == 0 ? main : std::min(main, distance(std::abs(x) - corner_x - further, y - corner_y, ramp));
+  }
+  /// From the wedge with its corner at the origin.
+  [[nodiscard]] double distance(double dx, double dy, double angle) const {
+    const double across = dx * std::cos(angle) - dy * std::sin(angle);
+    const double along = dx * std::sin(angle) + dy * std::cos(angle);
     if (along > 0) return across - radius;
     if (dx < 0) return -dy - radius;
     return std::hypot(dx, dy) - radius;
@@ -291,6 +305,63 @@ BOOST_AUTO_TEST_CASE(internal_fillet_is_the_tangent_arc) {
   const double twice_area = std::abs((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x());
   const double radius = (b - a).norm() * (c - b).norm() * (a - c).norm() / (2 * twice_area);
   record.close("radius", "m", radius, p.root_fillet_factor * p.module, 1e-11, "rounding, differences of 1e-3");
+}
+
+// With a protuberance, that of the tool: flank, ramp and fillet together. Fillets end in the root circle as all do.
+BOOST_AUTO_TEST_CASE(a_protuberance_leaves_its_envelope) {
+  annulus::test::Verification record("Outline of external gears from a rack with a protuberance",
+                                     "envelope of the rolling rack, searched numerically");
+  for (const auto& [teeth, x, beta, modules, ramp] : {std::tuple{25, 0.2, 0.0, 0.02, 10.0},
+                                                      {60, -0.1, 0.0, 0.05, 8.0},
+                                                      {25, 0.3, 20.0, 0.03, 12.0},
+                                                      {25, 0.2, 0.0, 0.002, 4.0},     // the corner alone
+                                                      {14, 0.0, 0.0, 0.02, 10.0}}) {  // undercut as well
+    auto p = helical(plain_gear(GearKind::external, teeth, x), beta * units::deg);
+    const Gear without(p);
+    p.protuberance = modules * p.module;
+    p.protuberance_angle = ramp * units::deg;
+    const Gear g(p);
+    BOOST_TEST(g.form_radius() > without.form_radius());
+    BOOST_TEST(g.undercut() == without.undercut());
+    const ToothProfile profile(g);
+    const RackTooth rack(p, g.reference_radius(), g.root_radius());
+    const double space = g.pitch_angle() / 2;
+    const auto name = fmt::format("{} teeth, {} modules", teeth, modules);
+    for (int i = 0; i <= 20; ++i) {
+      const double t = i / 20.0;
+      const double roll = profile.roll_length_form() + t * (profile.roll_length_tip() - profile.roll_length_form());
+      for (const auto& point : {profile.fillet_point(t), profile.flank_point(roll)})
+        record.near("gap between rack and outline over module, " + name, "",
+                    generated_gap(rack, g.reference_radius(), p.helix_angle, point, space) / p.module, 0, 1e-9,
+                    "minimum found by comparing values");
+    }
+    const double rounding = 1e-11 * g.tip_radius();  // of the crossing of two curves
+    record.at_most("distance from the involute's end", "m",
+                   (profile.fillet_point(0) - profile.flank_point(profile.roll_length_form())).norm(), rounding,
+                   "rounding");
+    record.near("end of the fillet less root radius", "m", profile.fillet_point(1).norm() - g.root_radius(), 0,
+                rounding, "rounding");
+    // Points find their place on the curve again.
+    for (const double t : {0.1, 0.3, 0.6, 0.9}) {
+      const Eigen::Vector2d on = profile.fillet_point(t),
+                            normal(-profile.fillet_tangent(t).y(), profile.fillet_tangent(t).x());
+      const Eigen::Vector2d back = profile.project(Boundary::leading_fillet, on + 1e-6 * normal, 0);
+      BOOST_TEST((back - on).norm() < 1e-10);
+    }
+  }
+  auto p = plain_gear(GearKind::external, 30);
+  p.protuberance = 0.05 * p.module;
+  check_refused([&] { (void)Gear(p); }, "protuberance angle");
+  p.protuberance_angle = 25 * units::deg;
+  check_refused([&] { (void)Gear(p); }, "below the pressure angle");
+  p.protuberance_angle = 18 * units::deg;
+  p.protuberance = 0.8 * p.module;
+  check_refused([&] { (void)Gear(p); }, "protuberance");
+  p.protuberance = 1e-9 * p.module;
+  BOOST_CHECK_NO_THROW(Gear{p});
+  p = plain_gear(GearKind::internal, 80);
+  p.protuberance = 0.05 * p.module;
+  check_refused([&] { (void)Gear(p); }, "only external gears");
 }
 
 // Both kinds: the fillet starts on the involute with its tangent and ends on the root circle with its tangent.

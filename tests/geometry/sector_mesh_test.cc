@@ -139,6 +139,11 @@ BOOST_AUTO_TEST_CASE(no_bad_cells_over_the_range_of_legal_geometry) {
     p.pressure_angle = uniform(14.5, 30) * units::deg;
     p.root_fillet_factor = uniform(0.1, 0.45);
     p.helix_angle = uniform(0, 1) < 0.3 ? uniform(-35, 35) * units::deg : 0;
+    if (drawn % 4 < 2) p.tip_chamfer = 0.15 * p.module;
+    if (!internal && drawn % 6 < 3) {
+      p.protuberance = 0.03 * p.module;
+      p.protuberance_angle = p.pressure_angle / 2;
+    }
     const double thickness = uniform(1, 8) * p.module;
     const bool circle = uniform(0, 1) < 0.5;
     const double circle_depth = uniform(min_circle_distance, 0.9 * thickness / p.module) * p.module;

@@ -62,6 +62,23 @@ BOOST_AUTO_TEST_CASE(outlines_have_the_thickness_of_their_teeth) {
   }
 }
 
+// A chamfer at 45 degrees takes as much off half the thickness as off the height.
+BOOST_AUTO_TEST_CASE(outlines_have_the_chamfers_of_their_tips) {
+  for (const bool internal : {false, true}) {
+    auto p = internal ? paper_gear(GearKind::internal, 162, 0.1516) : paper_gear(GearKind::external, 55, 0.7361);
+    p.tip_chamfer = 0.4 * units::mm;
+    const Gear gear(p);
+    double widest = 0, flank = 0;
+    for (const auto& q : tooth_outline(ToothProfile(gear), fine)) {
+      const double half = q.norm() * std::abs(std::atan2(q.y(), q.x()));
+      if (std::abs(q.norm() - gear.tip_radius()) < 1e-9) widest = std::max(widest, half);
+      if (std::abs(q.norm() - gear.tip_form_radius()) < 1e-9) flank = half;
+    }
+    BOOST_TEST(flank == gear.tooth_thickness(gear.tip_form_radius()) / 2, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(std::abs(flank - widest - p.tip_chamfer) < 0.02 * p.tip_chamfer);  // of two radii
+  }
+}
+
 BOOST_AUTO_TEST_CASE(outlines_are_closed_by_their_neighbours_and_stay_within_tolerance) {
   for (const Gear& gear : {paper_sun(), paper_ring(), Gear(helical(plain_gear(GearKind::external, 17), 0.3))}) {
     const auto outline = tooth_outline(ToothProfile(gear), 1e-6);

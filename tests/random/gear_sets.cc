@@ -20,7 +20,7 @@ double Rack::least_profile_shift(long teeth) const {
 
 void flank_keys(GearSet& set, const std::string& gear, Section section) {
   set.together.emplace_back(gear + ".tip_relief_um", gear + ".tip_relief_length_mm");
-  set.chances[gear + ".tip_chamfer_mm"] = 0.1;
+  set.chances[gear + ".tip_chamfer_mm"] = set.chances[gear + ".protuberance_um"] = 0.1;
   if (section != Section::solid) set.chances[gear + ".lead_crowning_um"] = set.chances[gear + ".lead_slope_um"] = 0;
 }
 

@@ -27,6 +27,8 @@ double usual_number(Draw& draw, const Parameter& p, const Scales& scales) {
   if (ends_with(p, "_phase_deg") || ends_with(p, "angle_deg")) return draw.uniform(0, 360);
   if (ends_with(p, "_N_per_m")) return scales.stiffness_N_per_m * draw.log_uniform(0.03, 30);
   if (ends_with(p, "_Nm_per_rad")) return scales.torsional_Nm_per_rad * draw.log_uniform(0.3, 300);
+  if (p.name == "protuberance_um") return 1e3 * scales.module_mm * draw.uniform(0.005, 0.03);
+  if (p.name == "protuberance_angle_deg") return draw.uniform(5, 15);
   if (ends_with(p, "chamfer_mm")) return scales.module_mm * draw.uniform(0.03, 0.12);
   if (ends_with(p, "length_mm")) return scales.module_mm * draw.uniform(0.1, 0.6);
   if (ends_with(p, "damping_ratio")) return draw.log_uniform(0.01, 0.15);

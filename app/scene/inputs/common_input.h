@@ -60,6 +60,8 @@ struct GearInput {
   std::optional<double> youngs_modulus, poisson_ratio, density;  ///< instead of those of [material]
   std::optional<double> tip_diameter, root_diameter;
   double root_fillet_factor = 0;
+  double protuberance = 0;                   ///< m
+  std::optional<double> protuberance_angle;  ///< rad
   double tip_chamfer = 0, tip_relief = 0, tip_relief_length = 0, profile_crowning = 0, profile_slope = 0;
   double lead_crowning = 0, lead_slope = 0;
   std::optional<std::string> left_topography, right_topography;  ///< files

@@ -99,6 +99,9 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene) {
   if (scene.transmission_error)
     shares = 4.0 * static_cast<double>(scene.transmission_error->pinion_torques.size()) +
              3.0 * static_cast<double>(scene.transmission_error->pinion_speeds.size());
+  // Draws of [manufacturing_error]: four numbers of both gears and those that are sorted.
+  constexpr double seconds_of_draw = 3.3e-7, MB_of_draw = 9e-5;
+  const double draws = scene.manufacturing_error ? scene.manufacturing_error->samples : 0;
   const auto pair = rough_pair(scene);
   const int period = pair.error_period();
   const auto system = assemble(pair);
@@ -119,7 +122,8 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene) {
            .ring = "",
            .size = {.work = Work::response_pair,
                     .unknowns = (1 + shares) * std::min(period, asked.value_or(period)),
-                    .motion_s = balances + cycles * per_cycle,
+                    .motion_s = balances + cycles * per_cycle + draws * seconds_of_draw,
+                    .held_MB = draws * MB_of_draw,
                     .tasks = static_cast<int>(1 + shares)},
            .study_s = study_s,
            .sample_s = study_s}};

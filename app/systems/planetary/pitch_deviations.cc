@@ -52,7 +52,10 @@ class PitchChecks : KeyChecks {
     draw(planet_class, e.planet_pitch_class, planet_key, e.planet_pitch, "planet", scene_.planet.teeth,
          scene_.stage.planets);
     // A list is that of all rings.
-    if (!scene_.rings.empty())
+    const auto other_teeth = [&](const auto& ring) { return ring.teeth != scene_.rings.front().teeth; };
+    if (e.ring_pitch_class && std::any_of(scene_.rings.begin(), scene_.rings.end(), other_teeth))
+      problem(ring_class, "needs rings with the same number of teeth: they have the same deviations");
+    else if (!scene_.rings.empty())
       draw(ring_class, e.ring_pitch_class, ring_key, e.ring_pitch, "ring", scene_.rings.front().teeth, 1);
     if (usable("sun.teeth")) list(sun_key, e.sun_pitch, scene_.sun.teeth, 1);
     if (usable("planet.teeth") && usable("stage.planets"))
@@ -82,7 +85,7 @@ class PitchChecks : KeyChecks {
       std::vector<double> shown;
       for (const double value : list) shown.push_back(value / units::um);
       set(list_key, shown, Origin::derived,
-          fmt::format("drawn: f_pT = {} µm and F_pT = {} µm of class {} used up [ISO1328-1]",
+          fmt::format("drawn: f_pT = {} µm and F_pT = {} µm of class {} [ISO1328-1]",
                       to_text(tolerances.single / units::um, 3), to_text(tolerances.cumulative / units::um, 3),
                       *flank_class));
     } catch (const GeometryError& error) {
@@ -153,10 +156,10 @@ Table pitch_deviation_keys() {
   const auto declare_class = [&](const std::string& gear, std::optional<int> ErrorInput::*member,
                                  const std::vector<const char*>& meshes) {
     auto key = errors.key(gear + "_pitch_class", member,
-                          "Flank tolerance class of ISO 1328-1 of the " + gear +
-                              (gear == "planet" ? "s, each of which has its own deviations" : "") +
-                              ", within which its pitch deviations are drawn: a wave once per turn and independent "
-                              "ones, which use up the tolerances of single and cumulative pitch.");
+                          std::string("Flank tolerance class of ISO 1328-1 within which the pitch deviations ") +
+                              (gear == "planet" ? "of every planet" : "of the " + gear) +
+                              " are drawn: a wave once per turn and independent ones. They are as large as the "
+                              "tolerances of single and cumulative pitch permit.");
     key.absent("not drawn").from(geometry::best_flank_class, geometry::worst_flank_class);
     key.refused_if(given("errors." + gear + "_pitch_deviations_um"), "the list states the deviations");
     only_with(key, meshes);

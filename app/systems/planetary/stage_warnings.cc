@@ -25,8 +25,8 @@ std::string back_flanks(const char* mesh, const std::vector<dynamics::BranchResu
   if (planets.empty()) return "";
   return fmt::format(
       "back flanks carry load in the {} of planet {}, for up to {:.3g} % of the time. They have the mirror image of "
-      "the "
-      "driving flanks' stiffness. For a ring that changes from tooth to tooth this leaves open where its supports are; "
+      "the driving flanks' stiffness and deviations. For a ring that changes from tooth to tooth this leaves open "
+      "where its supports are; "
       "the error bars contain that. A larger dynamics.half_backlash_um or smaller errors avoid this",
       mesh, fmt::join(planets, ", "), 100 * longest);
 }

@@ -19,7 +19,8 @@ namespace {
 /// Whether both draw the same teeth in mesh.
 bool same_teeth(const geometry::GearPair& a, const geometry::GearPair& b) {
   const auto drawn_by = [](const geometry::Gear& g) {
-    return std::tuple(g.teeth(), g.tip_radius(), g.root_radius(), g.form_radius(), g.parameters().profile_shift);
+    return std::tuple(g.teeth(), g.tip_radius(), g.tip_form_radius(), g.root_radius(), g.form_radius(),
+                      g.parameters().profile_shift);
   };
   return drawn_by(a.wheel()) == drawn_by(b.wheel());
 }
