@@ -20,6 +20,13 @@ std::string pair_name(const Gear& planet, const Gear& wheel) {
                      planet.teeth(), wheel.teeth());
 }
 
+/// What brings the start of an involute nearer to the root.
+std::string root_remedy(const Gear& gear) {
+  if (gear.kind() == GearKind::internal) return "root fillet factor";
+  return gear.parameters().protuberance > 0 ? "root diameter, its root fillet factor or its protuberance"
+                                            : "root diameter or its root fillet factor";
+}
+
 double roll_at(const Gear& gear, double radius) {
   const double base = gear.base_radius();
   return std::sqrt(std::max(0.0, (radius - base) * (radius + base)));
@@ -162,26 +169,24 @@ void GearPair::check_tips() const {
   }
   const double planet_form = roll_at(pinion_, pinion_.form_radius());
   if (roll_low_ < planet_form) {
-    throw GeometryError(
-        fmt::format("{}: tip interference: the tip of the {} (diameter {:.4f} mm) touches the planet at the diameter "
-                    "{:.4f} mm, below "
-                    "its form diameter {:.4f} mm (start of the involute); {} that tip diameter to {:.4f} mm, or reduce "
-                    "the planet's "
-                    "root diameter or its root fillet factor",
-                    name, wheel_word, 2 * wheel_.tip_form_radius() / units::mm,
-                    2 * std::hypot(pinion_.base_radius(), roll_low_) / units::mm, 2 * pinion_.form_radius() / units::mm,
-                    internal() ? "enlarge" : "reduce",
-                    2 * std::hypot(wheel_.base_radius(), wheel_roll_length(planet_form)) / units::mm));
+    throw GeometryError(fmt::format(
+        "{}: tip interference: the tip of the {} (diameter {:.4f} mm) touches the planet at the diameter "
+        "{:.4f} mm, below "
+        "its form diameter {:.4f} mm (start of the involute); {} that tip diameter to {:.4f} mm, or reduce "
+        "the planet's {}",
+        name, wheel_word, 2 * wheel_.tip_form_radius() / units::mm,
+        2 * std::hypot(pinion_.base_radius(), roll_low_) / units::mm, 2 * pinion_.form_radius() / units::mm,
+        internal() ? "enlarge" : "reduce",
+        2 * std::hypot(wheel_.base_radius(), wheel_roll_length(planet_form)) / units::mm, root_remedy(pinion_)));
   }
   const double wheel_roll = wheel_roll_length(roll_high_);
   const double wheel_form = roll_at(wheel_, wheel_.form_radius());
   if (internal() ? wheel_roll > wheel_form : wheel_roll < wheel_form) {
     throw GeometryError(fmt::format(
         "{}: tip interference: the tip of the planet touches the {} at roll length {:.4f} mm, its involute ends at "
-        "{:.4f} mm (form diameter {:.4f} mm); reduce the planet's tip diameter (now {:.4f} mm) or the root fillet "
-        "factor of the {}",
+        "{:.4f} mm (form diameter {:.4f} mm); reduce the planet's tip diameter (now {:.4f} mm), or the {}'s {}",
         name, wheel_word, wheel_roll / units::mm, wheel_form / units::mm, 2 * wheel_.form_radius() / units::mm,
-        2 * pinion_.tip_form_radius() / units::mm, wheel_word));
+        2 * pinion_.tip_form_radius() / units::mm, wheel_word, root_remedy(wheel_)));
   }
   const double a = centre_distance_;
   const double at_wheel_root =

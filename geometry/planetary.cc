@@ -112,11 +112,15 @@ double PlanetarySet::sun_phase_lag(int n) const {
 // 0 after (pi - half_s - half_r) z_p / 2 pi cycles. The ring turns clockwise, too: a leading flank of the ring that
 // passes planet 0 now passed planet n (counter-clockwise of it) z_r phi_n / 2 pi cycles ago.
 double PlanetarySet::ring_phase_lag(int n) const {
+  return cycle_fraction(cycles_from_sun_to_ring() - ring_teeth_ahead(n));
+}
+
+double PlanetarySet::cycles_from_sun_to_ring() const {
   const auto half_angle = [this](const GearPair& pair) {
     return planet().tooth_half_angle(planet().base_radius() / std::cos(pair.working_pressure_angle()));
   };
   const double turn = std::numbers::pi - half_angle(sun_mesh_) - half_angle(ring_mesh_);
-  return cycle_fraction(turn / planet().pitch_angle() - ring_teeth_ahead(n));
+  return turn / planet().pitch_angle();
 }
 
 double PlanetarySet::ring_tooth_offset(int n) const {

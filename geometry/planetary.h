@@ -49,6 +49,9 @@ class PlanetarySet {
   /// working pitch circles.
   [[nodiscard]] double sun_phase_lag(int n) const;
   [[nodiscard]] double ring_phase_lag(int n) const;
+  /// Mesh cycles, whole ones included, from the contact of a planet's tooth with the sun to that with the ring, in
+  /// their pitch points: gamma_rs is its fraction.
+  [[nodiscard]] double cycles_from_sun_to_ring() const;
   /// Whole number of mesh cycles that makes `f t - ring_phase_lag(n) + ring_tooth_offset(n)` the ring position
   /// coordinate of planet n: where it stands on a ring that does not repeat with every tooth. The coordinate grows by
   /// one when a planet has passed one ring tooth; seen from the ring the planets travel counter-clockwise, and at the

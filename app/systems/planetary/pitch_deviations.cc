@@ -123,16 +123,6 @@ std::vector<double> of_planet(const std::vector<double>& all, int teeth, int pla
   return {all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(first + one)};
 }
 
-/// Whole and broken mesh cycles between the contacts of a planet's tooth with sun and ring.
-double cycles_from_sun_to_ring(const geometry::PlanetarySet& set) {
-  const auto& planet = set.planet();
-  const double turn =
-      std::numbers::pi -
-      planet.tooth_half_angle(planet.base_radius() / std::cos(set.sun_mesh().working_pressure_angle())) -
-      planet.tooth_half_angle(planet.base_radius() / std::cos(set.ring_mesh().working_pressure_angle()));
-  return planet.teeth() * turn / (2 * std::numbers::pi);
-}
-
 }  // namespace
 
 Table pitch_deviation_keys() {
@@ -233,7 +223,7 @@ void add_pitch_deviations(const Scene& scene, const geometry::PlanetarySet& set,
       list[c] = sign * on_base(gear) * place[number(direction * static_cast<std::ptrdiff_t>(c), place.size())];
     return list;
   };
-  const double half_turn = cycles_from_sun_to_ring(set);
+  const double half_turn = set.cycles_from_sun_to_ring();
   for (int n = 0; n < set.planets(); ++n) {
     auto &sun = stage.sun_tooth_errors[static_cast<std::size_t>(n)],
          &ring = stage.ring_tooth_errors[static_cast<std::size_t>(n)];
