@@ -192,6 +192,29 @@ Figure with_error(Figure figure, double error) {
   return figure;
 }
 
+/// By how much the highest share of all columns is above those beside it, the lower one of both.
+double drop_beside_peak(const Eigen::MatrixXd& force) {
+  const Eigen::MatrixXd share = absolute_shares(force);
+  Eigen::Index row = 0, column = 0;
+  const double top = share.maxCoeff(&row, &column);
+  double drop = 0;
+  for (const Eigen::Index beside : {column - 1, column + 1})
+    if (beside >= 0 && beside < share.cols()) drop = std::max(drop, top - share(row, beside));
+  return drop;
+}
+
+Figure quasi_static_sharing(const Eigen::MatrixXd& force, const std::vector<Eigen::MatrixXd>& closer, CurveKind kind) {
+  if (closer.empty()) return figure(quasi_static_peak(force, kind), {});
+  Figure best{-1, 0};
+  for (const auto& around : closer) {
+    // A kink between two positions lies higher than these by half of that at most, where it is symmetric.
+    const double kink = kind == CurveKind::smooth ? drop_beside_peak(around) / 2 : 0;
+    const Figure here = with_error(figure(quasi_static_peak(around, kind), {}), kink);
+    if (here.value > best.value) best = here;
+  }
+  return best;
+}
+
 /// The same meshes in the best window, and in others whose results should be equal: their differences are errors.
 struct MeshEvidence {
   MeshWindow best, before, loose;
@@ -276,17 +299,29 @@ std::vector<BranchResult> branch_results(const SteadyResponse& found, Eigen::Ind
 }
 
 LoadSharing load_sharing(const SteadyResponse& found, Eigen::Index first, Eigen::Index count,
-                         const Eigen::MatrixXd& quasi_static_force) {
+                         const Eigen::MatrixXd& quasi_static_force, const std::vector<Eigen::MatrixXd>& closer) {
   const MeshEvidence meshes(found, first, count);
   const auto &best = meshes.best, &before = meshes.before, &loose = meshes.loose;
   const auto quasi_static =
-      figure(quasi_static_peak(quasi_static_force, best.jumps() ? CurveKind::with_jumps : CurveKind::smooth), {});
+      quasi_static_sharing(quasi_static_force, closer, best.jumps() ? CurveKind::with_jumps : CurveKind::smooth);
   if (meshes.alone)
     return {with_error(figure(best.sharing(), {}), meshes.shares_apart()),
             with_error(figure(best.averaged(), {}), meshes.averages_apart()), quasi_static};
   return {with_error(figure(best.sharing(), {loose.sharing()}),
                      std::abs(meshes.beside.sharing().refined - before.sharing().refined)),
           figure(best.averaged(), {before.averaged(), loose.averaged(), best.averaged_coarsely()}), quasi_static};
+}
+
+std::vector<Eigen::Index> highest_shares(const Eigen::MatrixXd& force, std::size_t most) {
+  if (force.size() == 0 || std::isnan(load_sharing_instantaneous(force))) return {};
+  const Eigen::RowVectorXd largest = absolute_shares(force).colwise().maxCoeff();
+  const Eigen::Index n = largest.size();
+  std::vector<Eigen::Index> tops;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (largest[i] >= largest[(i + n - 1) % n] && largest[i] >= largest[(i + 1) % n]) tops.push_back(i);
+  std::stable_sort(tops.begin(), tops.end(), [&](Eigen::Index a, Eigen::Index b) { return largest[a] > largest[b]; });
+  tops.resize(std::min(tops.size(), most));
+  return tops;
 }
 
 std::size_t worst_branch(const std::vector<BranchResult>& branches, Figure BranchResult::*result) {

@@ -35,9 +35,15 @@ struct BranchResult {
 /// factor. `mesh_cycle`: of these meshes, in the mesh cycles by which the window is sampled.
 [[nodiscard]] std::vector<BranchResult> branch_results(const SteadyResponse& found, Eigen::Index first,
                                                        Eigen::Index count, double nominal_force, double mesh_cycle = 1);
-/// Load sharing of the same meshes. `quasi_static_force`: N, meshes x positions.
+/// Load sharing of the same meshes. `quasi_static_force`: N, meshes x positions; `closer`: the same at closer,
+/// equidistant positions around the highest of these (highest_shares). Between two positions a share may have a kink,
+/// which no parabola meets.
 [[nodiscard]] LoadSharing load_sharing(const SteadyResponse& found, Eigen::Index first, Eigen::Index count,
-                                       const Eigen::MatrixXd& quasi_static_force);
+                                       const Eigen::MatrixXd& quasi_static_force,
+                                       const std::vector<Eigen::MatrixXd>& closer = {});
+/// Columns at which the largest share is higher than in both neighbours, the `most` highest first; the first and the
+/// last column are neighbours.
+[[nodiscard]] std::vector<Eigen::Index> highest_shares(const Eigen::MatrixXd& force, std::size_t most);
 
 /// The branch in which a result is largest; those in which it is not known do not count. Throws InternalError without
 /// branches.

@@ -73,6 +73,33 @@ BOOST_AUTO_TEST_CASE(dynamic_factor_contains_no_load_sharing) {
   BOOST_TEST(slow[0].dynamic_factor.value == 1.1, boost::test_tools::tolerance(1e-6));
 }
 
+// A share with a kink between two positions: the first of two branches carries up to 1.4 times the other.
+BOOST_AUTO_TEST_CASE(quasi_static_peaks_are_looked_for_between_the_positions) {
+  const auto found = drifting_loads(0, 2, 16);
+  constexpr double truth = 2 * 1.4 / 2.4;
+  for (const double top : {0.53, 0.5625, 0.59}) {
+    const auto forces = [&](const Eigen::RowVectorXd& times) {
+      Eigen::MatrixXd force = Eigen::MatrixXd::Ones(2, times.size());
+      force.row(0).array() += 0.4 - 0.8 * (times.array() - top).abs();
+      return force;
+    };
+    const Eigen::MatrixXd positions = forces(Eigen::RowVectorXd::LinSpaced(16, 0, 15.0 / 16));
+    const auto highest = highest_shares(positions, 2);
+    BOOST_REQUIRE(!highest.empty());
+    const double at = static_cast<double>(highest.front()) / 16;
+    BOOST_TEST(std::abs(at - top) <= 1.0 / 16);
+    const auto around = forces(Eigen::RowVectorXd::LinSpaced(17, at - 1.0 / 16, at + 1.0 / 16));
+    const auto sharing = load_sharing(found, 0, 2, positions, {around}).quasi_static;
+    BOOST_TEST(std::abs(sharing.value - truth) <= sharing.error * (1 + 1e-9));
+    BOOST_TEST(sharing.error < 5e-3);
+  }
+  Eigen::MatrixXd equal(2, 3);
+  equal << 1, 1, 1,  //
+      1, 1, 1;
+  BOOST_TEST(highest_shares(equal, 2).size() == 2U);
+  BOOST_TEST(highest_shares(Eigen::MatrixXd::Zero(2, 3), 2).empty());
+}
+
 BOOST_AUTO_TEST_CASE(curves_are_reduced_to_each_cycle) {
   Eigen::VectorXd values(6);
   values << 1, 2, 6, 5, 3, 4;

@@ -39,8 +39,24 @@ void set_figures(const PlanetaryStage& stage, const SimulationOptions& options, 
   const QuasiStatic path = quasi_static(stage, positions, options.max_window_cycles);
   const Eigen::Index n = stage.planets();
   const double mean = response.mean_mesh_force;
-  response.sun_planet = {load_sharing(found, 0, n, path.sun_force), branch_results(found, 0, n, mean)};
-  response.ring_planet = {load_sharing(found, n, n, path.ring_force), branch_results(found, n, n, mean)};
+  const auto system = assemble(stage);
+  // Between the positions beside the highest ones.
+  const auto closer = [&](const Eigen::MatrixXd& force, Eigen::Index first) {
+    constexpr std::size_t most = 2;
+    constexpr int pieces = 8;
+    const double step = 1 / (positions * stage.mesh_frequency());
+    std::vector<Eigen::MatrixXd> list;
+    for (const Eigen::Index top : highest_shares(force, most)) {
+      const double from = std::max(0.0, (static_cast<double>(top) - 1) * step);
+      const auto around = static_path(system, Eigen::VectorXd::LinSpaced(2 * pieces + 1, from, from + 2 * step));
+      list.push_back(around.force.middleRows(first, n));
+    }
+    return list;
+  };
+  response.sun_planet = {load_sharing(found, 0, n, path.sun_force, closer(path.sun_force, 0)),
+                         branch_results(found, 0, n, mean)};
+  response.ring_planet = {load_sharing(found, n, n, path.ring_force, closer(path.ring_force, n)),
+                          branch_results(found, n, n, mean)};
 }
 
 /// See DynamicResponse::force_balance_relative.
