@@ -163,17 +163,16 @@ void declare_flanks(Declarations<Section>& t, Flanks flanks) {
                "Slope along the face width, end to end; positive removes material towards +z, the free end of a "
                "thin_walled ring. The mesh then needs the solid model.")
       .from(-1000, 1000);
-  const auto topography = [&](const char* name, auto member, const char* side) {
-    t.key(name, member,
+  const auto topography = [&](const std::string& side, auto member, const char* direction) {
+    t.key(side + "_topography", member,
           fmt::format("File (CSV) with the measured {} flank of a tooth, that on the {} side as seen from +z: "
                       "diameter_mm, position_mm, removed_um on a grid (docs/exchange.md). The path is relative to the "
                       "scene. Added to the modifications. Flanks that change along the face need the solid model.",
-                      side == std::string("left") ? "left" : "right",
-                      side == std::string("left") ? "counter-clockwise" : "clockwise"))
+                      side, direction))
         .absent("involutes, with the modifications above");
   };
-  topography("left_topography", &Section::left_topography, "left");
-  topography("right_topography", &Section::right_topography, "right");
+  topography("left", &Section::left_topography, "counter-clockwise");
+  topography("right", &Section::right_topography, "clockwise");
 }
 
 /// bore_diameter_mm, required where a mesh of this gear is computed.
