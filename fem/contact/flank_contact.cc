@@ -25,6 +25,16 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() 
 
 }  // namespace
 
+namespace {
+
+/// What is removed along the face alone leaves two involutes in every section.
+bool profile_modified(const geometry::Gear& gear) {
+  const auto& p = gear.parameters();
+  return p.tip_relief != 0 || p.profile_crowning != 0 || p.profile_slope != 0;
+}
+
+}  // namespace
+
 FlankContact::FlankContact(const geometry::GearPair& pair)
     : pair_(pair),
       pinion_(pair.pinion()),
@@ -32,7 +42,7 @@ FlankContact::FlankContact(const geometry::GearPair& pair)
       planet_base_half_angle_(base_half_angle(pair.pinion())),
       wheel_base_half_angle_(base_half_angle(pair.wheel())),
       normal_factor_(std::cos(pair.pinion().base_helix_angle())),
-      modified_(geometry::modified(pair.pinion().parameters()) || geometry::modified(pair.wheel().parameters())) {}
+      modified_(profile_modified(pair.pinion()) || profile_modified(pair.wheel())) {}
 
 double FlankContact::planet_tooth_angle(double contact_roll) const {
   const double alpha = pair_.working_pressure_angle(), turned = contact_roll / pair_.pinion().base_radius();
