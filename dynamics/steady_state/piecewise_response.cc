@@ -239,6 +239,7 @@ std::string why_not_piecewise(const LumpedSystem& system, double period) {
   if (system.meshes().empty()) return "there is no mesh";
   if (system.has_moving_vectors()) return "mesh vectors move with the mesh";
   if (!system.couplings().empty()) return "meshes act on each other through the ring";
+  if (!system.bearings().empty()) return "bearings have clearance";
   for (const auto& mesh : system.meshes()) {
     const bool wave = std::holds_alternative<RectangularStiffness>(mesh.excitation);
     if (!wave && !std::holds_alternative<ConstantStiffness>(mesh.excitation))

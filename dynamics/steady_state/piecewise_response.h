@@ -23,7 +23,8 @@ struct PiecewiseResponse : PeriodicResponse {
 };
 
 /// The reason why piecewise_response does not apply, or empty. It needs constant or rectangular stiffnesses that repeat
-/// with `period` (s), constant or harmonic errors, no law, no coupling and no moving mesh vector.
+/// with `period` (s), constant or harmonic errors, no law, no coupling, no bearing with play and no moving
+/// mesh vector.
 [[nodiscard]] std::string why_not_piecewise(const LumpedSystem& system, double period);
 
 /// Would the exact solution of such a system need too many points because its motion is far faster than the period (s)?

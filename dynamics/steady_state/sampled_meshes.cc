@@ -22,7 +22,7 @@ SampledMeshes::SampledMeshes(const LumpedSystem& system, double period, Eigen::I
   damping_.resize(samples, meshes);
   for (auto* v : {&approach_, &rate_, &moved_, &force_}) v->resize(meshes);
   whole_.resize(system.meshes().size());
-  if (!system.couplings().empty()) {
+  if (system.has_coupled_meshes()) {
     coupled_.resize(meshes, meshes * samples);
     block_.resize(meshes, meshes);
   }

@@ -30,7 +30,7 @@ class SampledMeshes {
   /// dF/d delta and dF/d delta' of the last evaluation.
   [[nodiscard]] const Eigen::MatrixXd& tangent() const { return tangent_; }
   [[nodiscard]] const Eigen::MatrixXd& damping() const { return damping_; }
-  /// Change of the forces with the approaches, sample by sample, minus `mean` x change; couplings included.
+  /// Change of the forces with the approaches, sample by sample, minus `mean` x change; coupled meshes included.
   void apply_tangent(const Eigen::Ref<const Eigen::MatrixXd>& change, const Eigen::VectorXd& mean,
                      Eigen::Ref<Eigen::MatrixXd> force) const;
 
@@ -51,7 +51,7 @@ class SampledMeshes {
   double step_ = 0;
   std::vector<std::vector<Piece>> pieces_;  // per sample; empty when no stiffness jumps
   Eigen::MatrixXd tangent_, damping_;
-  Eigen::MatrixXd coupled_, block_;  // with couplings: meshes x (meshes samples), one block per sample
+  Eigen::MatrixXd coupled_, block_;  // with coupled meshes: meshes x (meshes samples), one block per sample
   // Present sample, per mesh.
   Eigen::VectorXd approach_, rate_, moved_, force_;
   std::vector<char> whole_;  // the contact state does not change within the step

@@ -98,6 +98,7 @@ LumpedSystem::Workspace LumpedSystem::workspace() const {
   for (auto* list :
        {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.elastic, &w.tangent, &w.approach})
     list->assign(meshes_.size(), 0.0);
+  w.across.assign(bearings_.size(), 0.0);
   w.location.resize(meshes_.size());
   const auto even = [](std::size_t size) { return size + size % 2; };
   w.pairs.assign(2 * names_.size() + even(meshes_.size()) + even(compiled_->moving_dofs.size()), 0.0);
@@ -133,6 +134,8 @@ void LumpedSystem::tangent_matrix(const Workspace& w, Eigen::Ref<Eigen::MatrixXd
     for (int i = 0; i < tangent.rows(); ++i)
       for (int j = 0; j < tangent.cols(); ++j) result(coupling.meshes[i], coupling.meshes[j]) = tangent(i, j);
   }
+  for (std::size_t i = 0; i < bearings_.size(); ++i)
+    result(bearings_[i].first, bearings_[i].second) = result(bearings_[i].second, bearings_[i].first) = w.across[i];
 }
 
 void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixXd> result, Workspace& w) const {
@@ -147,7 +150,7 @@ void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixX
       result(n + i, n + c.column[j]) = -c.damping[j];
     }
   }
-  if (!c.couplings.empty() || !c.moving.empty()) {
+  if (has_coupled_meshes() || !c.moving.empty()) {
     subtract_coupled(*this, c, t, result, w);
     return;
   }
@@ -174,6 +177,11 @@ double LumpedSystem::energy(double t, const double* y, Workspace& w) const {
     const double g = penetration(mesh, w.contact[m], w.delta[m]);
     energy +=
         mesh.surface ? mesh.surface->energy(table_place(mesh, w.contact[m], t).cycles, g) : 0.5 * w.elastic[m] * g;
+  }
+  for (const auto& bearing : bearings_) {
+    const auto i = static_cast<std::size_t>(bearing.first), j = static_cast<std::size_t>(bearing.second);
+    energy += bearing.law.energy(std::hypot(w.delta[i], w.delta[j])) -
+              0.5 * (w.elastic[i] * w.delta[i] + w.elastic[j] * w.delta[j]);
   }
   for (const auto& coupling : compiled_->couplings) {
     auto k = static_cast<std::size_t>(coupling.offset);

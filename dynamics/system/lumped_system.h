@@ -9,6 +9,7 @@
 
 #include "dynamics/system/curve_bundle.h"
 #include "dynamics/system/mesh_excitation.h"
+#include "dynamics/system/radial_bearing.h"
 
 namespace annulus::dynamics {
 
@@ -67,6 +68,14 @@ struct MeshCoupling {
 /// InputError without a matrix.
 [[nodiscard]] std::vector<PeriodicCurve> compliance_curves(const std::vector<Eigen::MatrixXd>& matrices, int per_cycle);
 
+/// Two meshes that are the components, at right angles, of the motion in a bearing: their elastic forces are those of
+/// its law and point along the motion. The stiffness of the meshes is that of small motions about the nominal load;
+/// their dampers act as in any mesh.
+struct BearingElement {
+  int first = 0, second = 0;  ///< in the order of add_mesh; without backlash and coupling
+  RadialBearing law;
+};
+
 /// A spring with its damper along a coordinate a: force k a^T q + c a^T q', part of K and C. The name states the
 /// machine part (sun_support_x, planet1_bearing_radial, ...); energies and bearing forces are reported under it.
 struct SpringElement {
@@ -96,6 +105,7 @@ class LumpedSystem {
     std::vector<double> delta, delta_rate, force;  ///< per mesh, of the last evaluation
     std::vector<double> elastic;                   ///< per mesh, force without damping of the last evaluation
     std::vector<double> tangent;                   ///< per mesh, dF/d delta of the last evaluation, N/m
+    std::vector<double> across;                    ///< per bearing, d elastic of one mesh / d delta of the other, N/m
     std::vector<Contact> contact;                  ///< per mesh
     /// Per mesh: value of a rectangular wave (1 high, 0 low) held up to the next jump; -1: from the time.
     std::vector<signed char> wave;
@@ -125,6 +135,9 @@ class LumpedSystem {
   [[nodiscard]] Eigen::MatrixXd damping_with_meshes() const;                       ///< C + sum c b b^T, b at time 0
   [[nodiscard]] bool has_moving_vectors() const;                                   ///< does any b change in time?
   [[nodiscard]] const std::vector<MeshCoupling>& couplings() const { return couplings_; }
+  [[nodiscard]] const std::vector<BearingElement>& bearings() const { return bearings_; }
+  /// Whether the force of some mesh depends on the deflection of another.
+  [[nodiscard]] bool has_coupled_meshes() const { return !couplings_.empty() || !bearings_.empty(); }
 
   [[nodiscard]] Workspace workspace() const;
   /// Sets the contact states from the deflections at (t, q).
@@ -140,7 +153,7 @@ class LumpedSystem {
   /// Does the elastic force of the last evaluation lie outside the loads of the table? -1: in contact below the lowest
   /// load, +1: above the largest, 0: inside, out of contact, or not a law from a table.
   [[nodiscard]] int outside_table(int mesh, const Workspace& workspace) const;
-  /// d elastic / d approach (N/m) of the last evaluation, meshes x meshes, symmetric; diagonal without couplings.
+  /// d elastic / d approach (N/m) of the last evaluation, meshes x meshes, symmetric; diagonal without coupled meshes.
   void tangent_matrix(const Workspace& workspace, Eigen::Ref<Eigen::MatrixXd> result) const;
   /// Right-hand side for the state y = (q, v) with 2 x DOFs entries: dy = (v, M^-1 (...)). No allocation.
   void rhs(double t, const double* y, double* dy, Workspace& workspace) const;
@@ -168,6 +181,7 @@ class LumpedSystem {
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;
+  std::vector<BearingElement> bearings_;
   std::vector<SpringElement> springs_;
   Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
   Eigen::VectorXd load_;
@@ -191,12 +205,14 @@ class LumpedSystemBuilder {
   /// Adds the Omega part of a damper (N s/m) to the housing in the turning frame: c (x' - Omega y), c (y' + Omega x).
   void add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping, double speed);
   void add_load(const LinearForm& coordinate, double force);
-  void add_mesh(MeshElement mesh);
+  int add_mesh(MeshElement mesh);  ///< its number
   /// Adds inertia (kg) between two coordinates: M += value (a b^T + b a^T).
   void add_mass_coupling(const LinearForm& a, const LinearForm& b, double value);
   /// Couples meshes that were added before. A mesh belongs to one coupling at most.
   void add_mesh_coupling(MeshCoupling coupling);
-  /// Throws InputError when a DOF has no mass or a coupling or moving share does not fit its meshes and DOFs.
+  /// Makes two meshes that were added before the components of a bearing.
+  void add_bearing(BearingElement bearing);
+  /// Throws InputError when a DOF has no mass or a coupling, bearing or moving share does not fit its meshes and DOFs.
   [[nodiscard]] LumpedSystem build() const;
 
  private:
@@ -206,6 +222,7 @@ class LumpedSystemBuilder {
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;
+  std::vector<BearingElement> bearings_;
   std::vector<SpringElement> springs_;
   struct Term {
     LinearForm row, column;

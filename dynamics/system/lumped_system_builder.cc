@@ -66,7 +66,10 @@ void LumpedSystemBuilder::add_load(const LinearForm& coordinate, double force) {
   load_.emplace_back(coordinate, force);
 }
 
-void LumpedSystemBuilder::add_mesh(MeshElement mesh) { meshes_.push_back(std::move(mesh)); }
+int LumpedSystemBuilder::add_mesh(MeshElement mesh) {
+  meshes_.push_back(std::move(mesh));
+  return static_cast<int>(meshes_.size()) - 1;
+}
 
 void LumpedSystemBuilder::add_mass_coupling(const LinearForm& a, const LinearForm& b, double value) {
   mass_.push_back({a, b, value});
@@ -74,6 +77,8 @@ void LumpedSystemBuilder::add_mass_coupling(const LinearForm& a, const LinearFor
 }
 
 void LumpedSystemBuilder::add_mesh_coupling(MeshCoupling coupling) { couplings_.push_back(std::move(coupling)); }
+
+void LumpedSystemBuilder::add_bearing(BearingElement bearing) { bearings_.push_back(bearing); }
 
 namespace {
 
@@ -94,6 +99,7 @@ LumpedSystem LumpedSystemBuilder::build() const {
   system.meshes_ = meshes_;
   system.springs_ = springs_;
   system.couplings_ = couplings_;
+  system.bearings_ = bearings_;
   assemble_matrices(system);
   check_mass(system);
   system.compiled_ = LumpedSystemCompiler(system).compile();

@@ -61,6 +61,7 @@ std::shared_ptr<const LumpedSystem::Compiled> LumpedSystemCompiler::compile() {
   for (const auto& mesh : system_.meshes()) compile_mesh(mesh);
   compile_moving_shares();
   for (const auto& coupling : system_.couplings()) compile_coupling(coupling);
+  for (const auto& bearing : system_.bearings()) compile_bearing(bearing);
   compile_rows();
   return std::move(compiled_);
 }
@@ -191,6 +192,26 @@ void LumpedSystemCompiler::compile_moving_shares() {
     c.inverse_moving.col(k) = mass_.solve(Eigen::VectorXd::Unit(dofs_, c.moving_dofs[k]));
 }
 
+void LumpedSystemCompiler::check_uncoupled(const std::string& what, int mesh) const {
+  const auto meshes = static_cast<int>(system_.meshes().size());
+  if (mesh < 0 || mesh >= meshes)
+    throw InputError(fmt::format("{} names mesh {}; there are 0 to {}", what, mesh, meshes - 1));
+  if (compiled_->meshes[mesh].coupled)
+    throw InputError(fmt::format("{} names mesh {} ({}), which is coupled already", what, mesh,
+                                 system_.meshes()[mesh].name));
+}
+
+void LumpedSystemCompiler::compile_bearing(const BearingElement& bearing) {
+  for (const int m : {bearing.first, bearing.second}) {
+    check_uncoupled("a bearing", m);
+    if (system_.meshes()[m].half_backlash)
+      throw InputError(fmt::format("mesh {} ({}) is a component of a bearing and has a half backlash of {} m; it must "
+                                   "have none",
+                                   m, system_.meshes()[m].name, *system_.meshes()[m].half_backlash));
+    compiled_->meshes[m].coupled = true;
+  }
+}
+
 void LumpedSystemCompiler::check_coupling(const MeshCoupling& coupling) const {
   const auto size = static_cast<int>(coupling.meshes.size());
   if (size < 1 || size > largest_coupling)
@@ -198,13 +219,10 @@ void LumpedSystemCompiler::check_coupling(const MeshCoupling& coupling) const {
   if (static_cast<int>(coupling.compliance.size()) != size * (size + 1) / 2)
     throw InputError(fmt::format("a coupling of {} meshes needs {} compliances, not {}", size, size * (size + 1) / 2,
                                  coupling.compliance.size()));
-  const auto meshes = static_cast<int>(system_.meshes().size());
   for (const int m : coupling.meshes) {
-    if (m < 0 || m >= meshes)
-      throw InputError(fmt::format("a mesh coupling names mesh {}; there are 0 to {}", m, meshes - 1));
-    if (compiled_->meshes[m].coupled || std::count(coupling.meshes.begin(), coupling.meshes.end(), m) > 1)
-      throw InputError(
-          fmt::format("a mesh coupling names mesh {} ({}), which is coupled already", m, system_.meshes()[m].name));
+    check_uncoupled("a mesh coupling", m);
+    if (std::count(coupling.meshes.begin(), coupling.meshes.end(), m) > 1)
+      throw InputError(fmt::format("a mesh coupling names mesh {} ({}) twice", m, system_.meshes()[m].name));
   }
   for (const auto& mode : coupling.retained)
     if (mode.dof < 0 || mode.dof >= dofs_ || !(mode.stiffness > 0))

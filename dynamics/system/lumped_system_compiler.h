@@ -27,6 +27,9 @@ class LumpedSystemCompiler {
   void compile_moving_shares();
   void compile_coupling(const MeshCoupling& coupling);
   void check_coupling(const MeshCoupling& coupling) const;
+  void compile_bearing(const BearingElement& bearing);
+  /// That a mesh exists and depends on no other yet.
+  void check_uncoupled(const std::string& what, int mesh) const;
   void compile_rows();
 
   const LumpedSystem& system_;

@@ -88,6 +88,26 @@ void LumpedSystem::evaluate_excitation(double t, Workspace& w) const {
   w.excitation_valid = true;
 }
 
+namespace {
+
+/// F = f(|d|) d / |d| with its tangents; `across`: between both components.
+void apply_bearing(const BearingElement& bearing, LumpedSystem::Workspace& w, double& across) {
+  const auto i = static_cast<std::size_t>(bearing.first), j = static_cast<std::size_t>(bearing.second);
+  w.delta[i] = w.approach[i];
+  w.delta[j] = w.approach[j];
+  const double distance = std::hypot(w.delta[i], w.delta[j]);
+  const auto [force, along] = bearing.law(distance);
+  const double secant = distance > 0 ? force / distance : along;
+  const double a = distance > 0 ? w.delta[i] / distance : 0.0, b = distance > 0 ? w.delta[j] / distance : 0.0;
+  w.elastic[i] = secant * w.delta[i];
+  w.elastic[j] = secant * w.delta[j];
+  w.tangent[i] = secant + (along - secant) * a * a;
+  w.tangent[j] = secant + (along - secant) * b * b;
+  across = (along - secant) * a * b;
+}
+
+}  // namespace
+
 void LumpedSystem::apply_forces(Workspace& w, ContactStates states) const {
   const Compiled& c = *compiled_;
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
@@ -98,6 +118,7 @@ void LumpedSystem::apply_forces(Workspace& w, ContactStates states) const {
     apply_law(mesh, m, w);
   }
   for (const auto& coupling : c.couplings) solve_coupling(coupling, c.meshes, states, w);
+  for (std::size_t i = 0; i < bearings_.size(); ++i) apply_bearing(bearings_[i], w, w.across[i]);
   for (std::size_t m = 0; m < c.meshes.size(); ++m)
     w.force[m] = w.elastic[m] + acting_damping(c.meshes[m], w.contact[m]) * w.delta_rate[m];
 }

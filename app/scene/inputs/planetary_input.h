@@ -36,10 +36,18 @@ struct RingInput : GearInput {
   }
 };
 
+/// How a planet's pin is held. unbending: it counts as rigid. between_walls: both ends clamped. cantilever: one end
+/// clamped.
+/// flexpin: one end clamped, the planet on a sleeve that stands on the other end and stays parallel.
+enum class PinMounting { unbending, between_walls, cantilever, flexpin };
+
 /// N/m; `rigid` drops the DOF. Torsional values are in the coordinate u = base radius x angle.
 struct SupportInput {
   double sun = rigid, ring = rigid, carrier = rigid, planet = rigid;
   std::vector<double> planet_radial, planet_tangential;  ///< one per planet; empty: `planet`
+  double planet_clearance = 0;  ///< m, radial clearance
+  PinMounting planet_pin = PinMounting::unbending;
+  std::optional<double> pin_diameter, pin_length;  ///< m
   /// Absent: rigid of the member that is held, none of the others (torsional_support).
   std::optional<double> sun_torsional, ring_torsional, carrier_torsional;
 

@@ -81,7 +81,7 @@ void check_helical_faces(const Scene& scene, const GearGeometry& geometry) {
 }
 
 void check_planetary_bearings(const Scene& scene, const GearGeometry& geometry) {
-  const auto& s = scene.supports;
+  const auto s = supports_with_pins(scene);
   const double mesh = geometry.operating_point.mean_mesh_force;
   check_bearing(scene, "supports.planet_N_per_m", s.planet, 2 * mesh);
   for (const auto& [key, bearings] : {std::pair{"supports.planet_radial_N_per_m", &s.planet_radial},

@@ -74,7 +74,7 @@ std::vector<Quantity> ring_quantities(const RingGeometry& ring) {
 
 std::vector<DofPlan> dofs(const Scene& scene) {
   using geometry::StageMember;
-  SupportInput given = scene.supports;
+  SupportInput given = supports_with_pins(scene);
   given.sun_torsional = torsional_support(scene, StageMember::sun);
   given.ring_torsional = torsional_support(scene, StageMember::ring);
   given.carrier_torsional = torsional_support(scene, StageMember::carrier);
@@ -94,7 +94,7 @@ std::vector<DofPlan> dofs(const Scene& scene) {
   add("carrier u", "torsional support", &SupportInput::carrier_torsional);
   const std::string each = fmt::format("planet 1 ... {}", scene.stage.planets);
   if (given.planet_radial.empty() && given.planet_tangential.empty())
-    add(each + " x, y", "bearing", &SupportInput::planet);
+    add(each + " x, y", given.planet_clearance > 0 ? "bearing with clearance" : "bearing", &SupportInput::planet);
   else
     for (const auto& [coordinate, direction] :
          {std::pair{"x", &SupportInput::planet_radial}, {"y", &SupportInput::planet_tangential}})
@@ -157,6 +157,12 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
     list.emplace_back(
         "The torque of the sun is clockwise. The stage is computed as its mirror image, in which it is "
         "counter-clockwise: directions and drawings of the results are those of the mirror image.");
+  if (scene.supports.planet_clearance > 0)
+    list.push_back(
+        fmt::format("The planet bearings have {} µm of radial clearance. Their rollers count as many, equal and of "
+                    "linear stiffness: the changing stiffness while they pass under the load is left out. The natural "
+                    "frequencies are those of small motions about the mean load.",
+                    to_text(scene.supports.planet_clearance / units::um, 4)));
   if (scene.stage.helix_angle != 0)
     list.emplace_back(
         "The lumped model is plane. It contains the transverse forces of helical teeth; their axial forces and tilting "

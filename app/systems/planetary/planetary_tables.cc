@@ -179,11 +179,40 @@ Table supports_table() {
        {std::pair{"radial", &SupportInput::planet_radial}, {"tangential", &SupportInput::planet_tangential}})
     supports
         .key(fmt::format("planet_{}_N_per_m", direction), member,
-             fmt::format("{} stiffness of each planet's bearing and pin, one value per planet; inf: rigid.",
+             fmt::format("{} stiffness of each planet's bearing, one value per planet; inf: rigid.",
                          direction == std::string("radial") ? "Radial" : "Tangential"))
         .above(0, 1e15)
         .infinite()
         .absent("planet_N_per_m");
+  supports
+      .key("planet_clearance_um", &SupportInput::planet_clearance,
+           "Radial clearance of each planet's bearing (ISO 5753-1): how far the planet moves across it from stop to "
+           "stop. Rollers then carry over a part of the bearing that grows with the load; planet_N_per_m is the "
+           "stiffness without clearance.")
+      .only_if(given("planet_N_per_m"), "the bearing needs a stiffness")
+      .fallback(0.0, "rollers carry on both sides of the bearing")
+      .from(0, 1000);
+  supports
+      .choice("planet_pin", &SupportInput::planet_pin,
+              {{"rigid", PinMounting::unbending},
+               {"between_walls", PinMounting::between_walls},
+               {"cantilever", PinMounting::cantilever},
+               {"flexpin", PinMounting::flexpin}},
+              "What carries a planet's bearing; its compliance is added to that of the bearing. rigid: nothing is "
+              "added. between_walls: a pin clamped in both walls of the carrier, loaded in the middle. cantilever: a pin "
+              "clamped in one wall. flexpin: a pin clamped in one wall, whose other end carries a sleeve; the middle "
+              "of the planet lies over the middle of the pin, which keeps it parallel.")
+      .fallback("rigid", "planet_N_per_m contains the pin");
+  const auto bends = !is("planet_pin", {"rigid"});
+  supports.key("planet_pin_diameter_mm", &SupportInput::pin_diameter, "Diameter of a solid pin where it bends.")
+      .above(0, 1000)
+      .needed_if(bends, "the stiffness of the pin follows from it");
+  supports
+      .key("planet_pin_length_mm", &SupportInput::pin_length,
+           "Length of pin that bends. between_walls: from wall to wall; cantilever: from the wall to the middle of the "
+           "planet; flexpin: from the wall to the sleeve.")
+      .above(0, 1000)
+      .needed_if(bends, "the stiffness of the pin follows from it");
   const auto torsional = [&](const char* name, std::optional<double> SupportInput::*member, const char* meaning) {
     supports.key(name, member, meaning)
         .from(0, 1e15)

@@ -25,8 +25,10 @@ const std::vector<RigidChange<Stage>>& rigid_changes() {
       {"carrier held in place", [](Stage& s) { return std::vector{&s.carrier.support}; }},
       {"planet bearings rigid", [](Stage& s) {
          std::vector<double*> stiffness;
-         for (auto& bearing : s.planet_bearings)
+         for (auto& bearing : s.planet_bearings) {
+           if (bearing.play > 0) return std::vector<double*>{};
            for (double* one : {&bearing.radial, &bearing.tangential}) stiffness.push_back(one);
+         }
          return stiffness;
        }}};
   return list;

@@ -1,6 +1,7 @@
 #include "app/results/content_id.h"
 #include "app/systems/planetary/stage_response.h"
 #include "core/json.h"
+#include "core/units.h"
 
 namespace annulus::app {
 
@@ -46,6 +47,7 @@ Json modes_json(const StageModes& modes) {
 Json motion_json(const StageMotion& m) {
   return {{"pin_force_max_N", m.pin_force_max},
           {"pin_force_mean_tangential_N", m.pin_force_mean_tangential},
+          {"load_zone_min_deg", json_number(m.load_zone_min / units::deg)},
           {"sun_support_max_N", json_number(m.sun_support_max)},
           {"ring_support_max_N", json_number(m.ring_support_max)},
           {"carrier_support_max_N", json_number(m.carrier_support_max)},

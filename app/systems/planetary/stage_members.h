@@ -12,7 +12,7 @@ ANNULUS_MEMBERS(dynamics::Deviation, amount, phase);
 ANNULUS_MEMBERS(dynamics::BodyErrors, eccentricity, position);
 ANNULUS_MEMBERS(dynamics::CentralBody, mass, inertia, radius, support, torsional_support, errors);
 ANNULUS_MEMBERS(dynamics::PlanetBody, mass, inertia, radius);
-ANNULUS_MEMBERS(dynamics::PlanetBearing, radial, tangential);
+ANNULUS_MEMBERS(dynamics::PlanetBearing, radial, tangential, play, pin);
 ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bearings, planet_angles, planet_errors,
                 sun_tooth_errors, ring_tooth_errors, sun_working_angle, ring_working_angle, sun_teeth, planet_teeth,
                 ring_teeth, sun_mesh, ring_mesh, sun_phase_lag, ring_phase_lag, ring_tooth_offset, ring_coupling,
@@ -45,7 +45,7 @@ ANNULUS_MEMBERS(app::ResponseErrors, sun_planet, ring_planet);
 ANNULUS_MEMBERS(app::StageModes::Mode, frequency, frequency_error, error_parts, kind, damped_frequency, damping_ratio,
                 strain, kinetic);
 ANNULUS_MEMBERS(app::StageModes, groups, bodies, list, shapes, campbell, critical_speeds);
-ANNULUS_MEMBERS(app::StageMotion, pin_force_max, pin_force_mean, sun_support, ring_support, carrier_support,
+ANNULUS_MEMBERS(app::StageMotion, pin_force_max, pin_force_mean, load_zone, sun_support, ring_support, carrier_support,
                 held_torque, orbit_extent, orbit_largest, section, section_period, section_clusters, bearing_forces,
                 sun_orbit, poincare);
 ANNULUS_MEMBERS(app::StageResponse, figures, errors, modes, motion, load_sharing, force_factors, waveform,

@@ -58,9 +58,12 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   stage.ring.torsional_support = *supports.ring_torsional;
   stage.carrier.torsional_support = *supports.carrier_torsional;
   stage.carrier.support = supports.carrier;
+  const bool play = supports.planet_clearance > 0;
   for (std::size_t n = 0; n < static_cast<std::size_t>(scene.stage.planets); ++n)
-    stage.planet_bearings.push_back({supports.planet_bearing(&SupportInput::planet_radial, n),
-                                     supports.planet_bearing(&SupportInput::planet_tangential, n)});
+    stage.planet_bearings.push_back({.radial = supports.planet_bearing(&SupportInput::planet_radial, n),
+                                     .tangential = supports.planet_bearing(&SupportInput::planet_tangential, n),
+                                     .play = supports.planet_clearance / 2,
+                                     .pin = play ? pin_stiffness(scene) : rigid});
   if (ring_mesh.coupling)
     stage.ring_coupling = taken_coupling(*ring_mesh.coupling, coupling_choice(scene, *ring_mesh.coupling).taken);
   stage.sun_half_backlash = scene.sun_planet.half_backlash.value_or(scene.dynamics->half_backlash);

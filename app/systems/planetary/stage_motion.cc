@@ -1,6 +1,11 @@
 #include "app/systems/planetary/stage_motion.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
 #include "dynamics/figures/motion.h"
+#include "dynamics/system/radial_bearing.h"
 #include "dynamics/systems/planetary/stage_motion.h"
 
 namespace annulus::app {
@@ -12,8 +17,14 @@ void add_column(Csv& csv, const std::string& name, const Eigen::VectorXd& cycles
   for (std::size_t c = 0; c < csv.rows.size(); ++c) csv.rows[c].push_back(cycles[static_cast<Eigen::Index>(c)]);
 }
 
-void add_bearings(StageMotion& motion, const dynamics::StageMotion& found,
-                  const std::optional<geometry::StageMember>& held, int cycles) {
+/// rad, of a bearing with play under the forces on its pin.
+Eigen::VectorXd load_zones(const dynamics::PlanetBearing& bearing, const Eigen::VectorXd& force) {
+  const dynamics::RadialBearing law(bearing.radial, bearing.play, bearing.pin);
+  return force.unaryExpr([&](double f) { return law.load_zone(f); });
+}
+
+void add_bearings(StageMotion& motion, const dynamics::StageMotion& found, const dynamics::PlanetaryStage& stage,
+                  int cycles) {
   auto& csv = motion.bearing_forces;
   csv.columns = {"mesh_cycle"};
   for (int c = 0; c < cycles; ++c) csv.rows.emplace_back(1, c);
@@ -27,6 +38,12 @@ void add_bearings(StageMotion& motion, const dynamics::StageMotion& found,
     add_column(csv, name + "_tangential_mean_N", in_cycles(found.pins.tangential).mean);
     add_column(csv, name + "_resultant_min_N", in_cycles(resultant).smallest);
     add_column(csv, name + "_resultant_max_N", in_cycles(resultant).largest);
+    if (const auto bearing = stage.planet_bearing(static_cast<int>(n)); bearing.play > 0) {
+      const auto zone = dynamics::over_cycles(load_zones(bearing, resultant.row(n).transpose()), cycles).smallest;
+      add_column(csv, name + "_load_zone_min_deg", zone / units::deg);
+      motion.load_zone_min =
+          std::isnan(motion.load_zone_min) ? zone.minCoeff() : std::min(motion.load_zone_min, zone.minCoeff());
+    }
     motion.pin_force_max.push_back(resultant.row(n).maxCoeff());
     motion.pin_force_mean_tangential.push_back(found.pins.tangential.row(n).mean());
   }
@@ -38,10 +55,10 @@ void add_bearings(StageMotion& motion, const dynamics::StageMotion& found,
   motion.sun_support_max = support("sun", found.sun_support);
   motion.ring_support_max = support("ring", found.ring_support);
   motion.carrier_support_max = support("carrier", found.carrier_support);
-  if (!held) return;
+  if (!stage.held) return;
   using geometry::StageMember;
-  const auto& reaction = *held == StageMember::sun    ? found.sun_support
-                         : *held == StageMember::ring ? found.ring_support
+  const auto& reaction = *stage.held == StageMember::sun    ? found.sun_support
+                         : *stage.held == StageMember::ring ? found.ring_support
                                                       : found.carrier_support;
   add_column(csv, "held_torque_mean_N_m", dynamics::over_cycles(reaction.torque, cycles).mean);
   motion.held_torque_mean = reaction.torque.mean();
@@ -54,7 +71,7 @@ int written_stride(int window_cycles) { return window_cycles > dynamics::long_wi
 StageMotion tabulated_motion(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response) {
   const auto found = dynamics::stage_motion(stage, response);
   StageMotion motion;
-  add_bearings(motion, found, stage.held, response.window_cycles);
+  add_bearings(motion, found, stage, response.window_cycles);
   const auto& path = found.sun_orbit;
   motion.sun_orbit_extent = path.extent;
   motion.sun_orbit_largest = path.largest;

@@ -14,6 +14,7 @@ namespace annulus::app {
 struct StageMotion {
   std::vector<double> pin_force_max;              ///< N, largest resultant on the pin of each planet
   std::vector<double> pin_force_mean_tangential;  ///< N
+  double load_zone_min = not_known;               ///< rad, smallest of a planet bearing with clearance
   double sun_support_max = not_known, ring_support_max = not_known, carrier_support_max = not_known;  ///< N, resultant
   double held_torque_mean = not_known;   ///< N m, on the housing
   double sun_orbit_extent = not_known;   ///< m, largest distance from the mean position, carrier frame

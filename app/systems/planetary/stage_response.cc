@@ -47,9 +47,9 @@ std::vector<std::string> columns(const std::string& first, const std::vector<std
 
 /// Branch factor N F / sum F, the sum over the branches of the same kind (sun meshes first, then ring meshes).
 Eigen::MatrixXd sharing(const Eigen::MatrixXd& force, Eigen::Index planets) {
-  Eigen::MatrixXd result(force.rows(), force.cols());
+  Eigen::MatrixXd result(2 * planets, force.cols());
   result.topRows(planets) = dynamics::load_sharing_over_time(force.topRows(planets));
-  result.bottomRows(planets) = dynamics::load_sharing_over_time(force.bottomRows(planets));
+  result.bottomRows(planets) = dynamics::load_sharing_over_time(force.middleRows(planets, planets));
   return result;
 }
 
@@ -57,12 +57,15 @@ void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, 
   const auto& series = response.series;
   const int cycles = response.window_cycles;
   const Eigen::Index samples = series.time.size() / cycles;
-  const Eigen::MatrixXd factor = series.force / response.mean_mesh_force;
-  const Eigen::MatrixXd momentary = sharing(series.force, planets);
+  const Eigen::Index toothed = 2 * static_cast<Eigen::Index>(planets);  // bearings with play follow
+  const std::vector<std::string> meshes(series.meshes.begin(), series.meshes.begin() + toothed);
+  const Eigen::MatrixXd force = series.force.topRows(toothed);
+  const Eigen::MatrixXd factor = force / response.mean_mesh_force;
+  const Eigen::MatrixXd momentary = sharing(force, planets);
   const Eigen::MatrixXd averaged = sharing(response.cycle_force, planets);
 
-  result.load_sharing.columns = columns("mesh_cycle", series.meshes, {"_averaged", "_min", "_max"});
-  result.force_factors.columns = columns("mesh_cycle", series.meshes, {"_smallest", "_largest", "_dynamic_factor"});
+  result.load_sharing.columns = columns("mesh_cycle", meshes, {"_averaged", "_min", "_max"});
+  result.force_factors.columns = columns("mesh_cycle", meshes, {"_smallest", "_largest", "_dynamic_factor"});
   for (int c = 0; c < cycles; ++c) {
     const auto shares = momentary.middleCols(c * samples, samples);
     const auto factors = factor.middleCols(c * samples, samples);
@@ -77,7 +80,7 @@ void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, 
 
   const auto first_cycles = [&](const Eigen::MatrixXd& values) {
     Csv csv;
-    csv.columns = columns("mesh_cycle", series.meshes, {""});
+    csv.columns = columns("mesh_cycle", meshes, {""});
     for (Eigen::Index i = 0; i < std::min(waveform_cycles, cycles) * samples; ++i) {
       auto& row = csv.rows.emplace_back(1, static_cast<double>(i) / static_cast<double>(samples));
       row.insert(row.end(), values.col(i).begin(), values.col(i).end());
@@ -87,11 +90,11 @@ void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, 
   result.waveform = first_cycles(factor);
   result.sharing_waveform = first_cycles(momentary);
 
-  result.spectrum.columns = columns("frequency_Hz", series.meshes, {"_N"});
+  result.spectrum.columns = columns("frequency_Hz", meshes, {"_N"});
   result.spectrum.columns.insert(result.spectrum.columns.begin() + 1, "mesh_order");
   std::vector<dynamics::Spectrum> spectra;
   for (Eigen::Index b = 0; b < factor.rows(); ++b) {
-    spectra.push_back(dynamics::spectrum(Eigen::VectorXd(series.force.row(b).transpose()), cycles));
+    spectra.push_back(dynamics::spectrum(Eigen::VectorXd(force.row(b).transpose()), cycles));
   }
   for (Eigen::Index i = 0; i < spectra.front().order.size() && spectra.front().order[i] <= highest_order; ++i) {
     const double order = spectra.front().order[i];

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/model/stiff_supports.h"
+#include "core/circular_beam.h"
 
 namespace annulus::app {
 
@@ -16,8 +17,47 @@ double torsional_support(const Scene& scene, StageMember member) {
   return given.value_or(scene.stage.held == member ? rigid : 0);
 }
 
-SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring_mesh) {
+namespace {
+
+CircularBeam pin_of(const Scene& scene) {
+  return {scene.supports.pin_diameter.value_or(0), scene.material.youngs_modulus, scene.material.poisson_ratio};
+}
+
+}  // namespace
+
+double pin_stiffness(const Scene& scene) {
+  const double length = scene.supports.pin_length.value_or(0);
+  switch (scene.supports.planet_pin) {
+    case PinMounting::unbending:
+      break;
+    case PinMounting::between_walls:  // halves side by side; the middle does not turn
+      return 2 / pin_of(scene).parallel_shift(length / 2);
+    case PinMounting::cantilever:
+      return 1 / pin_of(scene).cantilever(length);
+    case PinMounting::flexpin:  // the force passes through the middle of the pin: its end does not turn
+      return 1 / pin_of(scene).parallel_shift(length);
+  }
+  return rigid;
+}
+
+double pin_tilt(const Scene& scene, double force) {
+  if (scene.supports.planet_pin != PinMounting::cantilever) return 0;
+  return force * pin_of(scene).cantilever_tilt(*scene.supports.pin_length);
+}
+
+SupportInput supports_with_pins(const Scene& scene) {
   SupportInput s = scene.supports;
+  const double pin = pin_stiffness(scene);
+  if (pin == rigid || s.planet_clearance > 0) return s;
+  const auto add_pin = [pin](double& bearing) { bearing = 1 / (1 / bearing + 1 / pin); };
+  add_pin(s.planet);
+  for (auto* own : {&s.planet_radial, &s.planet_tangential})
+    for (double& bearing : *own) add_pin(bearing);
+  return s;
+}
+
+SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring_mesh) {
+  SupportInput s = supports_with_pins(scene);
   const double n = scene.stage.planets, both = sun_mesh + ring_mesh, accuracy = scene.accuracy;
   s.sun = rigid_if_stiff(s.sun, n * sun_mesh, accuracy);
   s.ring = rigid_if_stiff(s.ring, n * ring_mesh, accuracy);
@@ -29,7 +69,9 @@ SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring
   s.ring_torsional = torsional(StageMember::ring, ring_mesh);
   s.carrier_torsional = torsional(StageMember::carrier, both);
   s.carrier = rigid_if_stiff(s.carrier, n * both, accuracy);
-  s.planet = rigid_if_stiff(s.planet, both, accuracy);
+  // The force on a bearing with clearance needs the motion in it.
+  s.planet = s.planet_clearance > 0 ? as_stiff_as_matters(s.planet, both, accuracy)
+                                    : rigid_if_stiff(s.planet, both, accuracy);
   for (auto* own : {&s.planet_radial, &s.planet_tangential})
     for (double& bearing : *own) bearing = rigid_if_stiff(bearing, both, accuracy);
   return s;
@@ -38,12 +80,13 @@ SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring
 double bearing_compliance(const Scene& scene, const geometry::PlanetarySet& set) {
   const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
   const double tangential = std::pow(std::cos(as) + std::cos(ar), 2), radial = std::pow(std::sin(as) - std::sin(ar), 2);
-  const auto& s = scene.supports;
+  const auto s = supports_with_pins(scene);
   double sum = 0;
   for (int n = 0; n < set.planets(); ++n)
     sum += tangential / s.planet_bearing(&SupportInput::planet_tangential, static_cast<std::size_t>(n)) +
            radial / s.planet_bearing(&SupportInput::planet_radial, static_cast<std::size_t>(n));
-  return sum / set.planets();
+  // In a bearing with clearance the pin stands apart.
+  return sum / set.planets() + (s.planet_clearance > 0 ? (tangential + radial) / pin_stiffness(scene) : 0);
 }
 
 }  // namespace annulus::app

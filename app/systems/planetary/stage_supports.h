@@ -10,6 +10,14 @@ namespace annulus::app {
 /// N/m in u: rigid for the member that is held and none for the others, where the scene does not say.
 [[nodiscard]] double torsional_support(const Scene& scene, geometry::StageMember member);
 
+/// N/m, of the pin of each planet: a beam of the material of [material].
+[[nodiscard]] double pin_stiffness(const Scene& scene);
+/// rad, by which a cantilevered pin tilts under a force (N) on the planet; 0 of others.
+[[nodiscard]] double pin_tilt(const Scene& scene, double force);
+
+/// The supports of the scene, bearings without clearance with their pins.
+[[nodiscard]] SupportInput supports_with_pins(const Scene& scene);
+
 /// The supports by the rule of stiff_supports.h, the torsional ones included. `sun_mesh`, `ring_mesh`: mean stiffness
 /// of one mesh, N/m.
 [[nodiscard]] SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring_mesh);

@@ -10,6 +10,7 @@
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/mesh_names.h"
+#include "core/units.h"
 #include "core/json.h"
 
 namespace annulus::app {
@@ -118,6 +119,7 @@ Json ring_json(const RunResult& result, std::size_t number) {
   const auto& m = ring.response->motion;
   json["bearing_forces"] = {{"planet_max_N", m.pin_force_max},
                             {"planet_mean_tangential_N", m.pin_force_mean_tangential},
+                            {"load_zone_min_deg", json_number(m.load_zone_min / units::deg)},
                             {"sun_support_max_N", json_number(m.sun_support_max)},
                             {"ring_support_max_N", json_number(m.ring_support_max)},
                             {"carrier_support_max_N", json_number(m.carrier_support_max)},

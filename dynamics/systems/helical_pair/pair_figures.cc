@@ -14,7 +14,7 @@ FigureSpec acceleration(const char* key, const char* title, const char* definiti
   return {.key = key, .title = title, .unit = "m/s²", .definition = definition, .better = Better::smaller};
 }
 
-std::vector<FigureSpec> declared() {
+std::vector<FigureSpec> pair_specs() {
   std::vector<FigureSpec> list;
   auto tooth = acceleration("acceleration_max_m_per_s2", "Largest acceleration of the teeth",
                             "largest over time and both gears of |(u'' ± y'', z'')| of the teeth in mesh");
@@ -81,7 +81,7 @@ std::vector<FigureSpec> declared() {
 }  // namespace
 
 const std::vector<FigureSpec>& pair_figures() {
-  static const auto list = declared();
+  static const auto list = pair_specs();
   return list;
 }
 

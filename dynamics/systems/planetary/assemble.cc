@@ -38,8 +38,42 @@ PlaneBody add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
   return c;
 }
 
+/// The component of a planet's motion in its bearing along a unit vector (radial, tangential), with the stiffness there.
+MeshElement bearing_component(const PlanetaryStage& stage, const std::string& name, const LinearForm& radial,
+                              const LinearForm& tangential, const Eigen::Vector2d& direction, double stiffness) {
+  MeshElement element;
+  element.name = name;
+  element.b = direction[0] * radial + direction[1] * tangential;
+  element.excitation = ConstantStiffness{stiffness};
+  element.damping = critical_share(stage.support_damping_ratio, stiffness, stage.planet.mass);
+  return element;
+}
+
+/// A bearing with play as two elements, along and across the mean pin force. Its stiffness depends on the whole load,
+/// so that the centrifugal force, which else only displaces the planet, acts here.
+void add_bearing_with_play(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const std::string& name,
+                           const PlanetBearing& bearing, const LinearForm& radial, const LinearForm& tangential) {
+  const RadialBearing law(bearing.radial, bearing.play, bearing.pin);
+  const Eigen::Vector2d force = stage.mean_pin_force();
+  const double size = force.norm();
+  const Eigen::Vector2d along = size > 0 ? Eigen::Vector2d(force / size) : Eigen::Vector2d::UnitY();
+  const double distance = law.distance(size), slope = law(distance).slope;
+  const int first =
+      builder.add_mesh(bearing_component(stage, name + "_bearing_along", radial, tangential, along, slope));
+  const int second =
+      builder.add_mesh(bearing_component(stage, name + "_bearing_across", radial, tangential, {-along[1], along[0]},
+                                         distance > 0 ? size / distance : slope));
+  builder.add_bearing({first, second, law});
+  const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
+  builder.add_load(radial, stage.planet.mass * stage.carrier.radius * speed * speed);
+}
+
+struct Planet : PlaneBody {
+  LinearForm radial_approach, tangential_approach;  ///< of the planet to the pin
+};
+
 /// Planet n: its own DOFs where the bearing gives way, else the carrier's motion at its bearing.
-PlaneBody add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const PlaneBody& carrier, int n) {
+Planet add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const PlaneBody& carrier, int n) {
   const auto& body = stage.planet;
   const auto name = "planet" + std::to_string(n + 1);
   const double phi = stage.planet_angles[n];
@@ -47,16 +81,19 @@ PlaneBody add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, 
   const LinearForm radial = std::cos(phi) * carrier.x + std::sin(phi) * carrier.y;
   const LinearForm translation = -std::sin(phi) * carrier.x + std::cos(phi) * carrier.y;
   const LinearForm tangential = translation + carrier.u;
-  PlaneBody p;
+  Planet p;
   const auto add_translation = [&](double stiffness, const LinearForm& seat, const char* dof, const char* direction) {
     if (stiffness == rigid) return seat;
     LinearForm own = builder.add_dof(name + dof);
-    builder.add_spring(own + (-1.0) * seat, stiffness,  // [HuFangXuShen2021, eqs. (20), (21)]
-                       critical_share(stage.support_damping_ratio, stiffness, body.mass), name + direction);
+    if (bearing.play == 0)
+      builder.add_spring(own + (-1.0) * seat, stiffness,  // [HuFangXuShen2021, eqs. (20), (21)]
+                         critical_share(stage.support_damping_ratio, stiffness, body.mass), name + direction);
     return own;
   };
   p.x = add_translation(bearing.radial, radial, "_x", "_bearing_radial");
   p.y = add_translation(bearing.tangential, tangential, "_y", "_bearing_tangential");
+  p.radial_approach = p.x + (-1.0) * radial;
+  p.tangential_approach = p.y + (-1.0) * tangential;
   p.u = builder.add_dof(name + "_u");
   builder.add_mass(p.u, body.inertia / (body.radius * body.radius));
 
@@ -170,7 +207,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   };
 
   std::vector<MeshElement> ring_meshes;
-  std::vector<PlaneBody> planets;
+  std::vector<Planet> planets;
   planets.reserve(stage.planet_angles.size());
   for (int n = 0; n < stage.planets(); ++n) planets.push_back(add_planet(builder, stage, carrier, n));
   const auto ring_modes = add_ring_modes(builder, stage, ring);
@@ -178,7 +215,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   for (int n = 0; n < stage.planets(); ++n) {
     const double phi = stage.planet_angles[n];
     const auto number = std::to_string(n + 1);
-    const PlaneBody& p = planets[n];
+    const Planet& p = planets[n];
     // [HuFangXuShen2021, eqs. (15), (16)]
     const LinearForm sun_b = sun.u + (-std::sin(phi - as)) * sun.x + std::cos(phi - as) * sun.y + p.u +
                              (-std::sin(as)) * p.x + (-std::cos(as)) * p.y;
@@ -195,6 +232,10 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   }
   for (auto& element : ring_meshes) builder.add_mesh(std::move(element));
   if (stage.ring_coupling) builder.add_mesh_coupling(coupling_of(stage, ring_modes));
+  for (int n = 0; n < stage.planets(); ++n)
+    if (const auto bearing = stage.planet_bearing(n); bearing.play > 0)
+      add_bearing_with_play(builder, stage, "planet" + std::to_string(n + 1), bearing, planets[n].radial_approach,
+                            planets[n].tangential_approach);
 
   // The loads from virtual work equal T_c / a with T_c = T_s (1 + z_r/z_s), and T_r / r_r. They are balanced to
   // rounding, so that a stage free to turn does not creep away.

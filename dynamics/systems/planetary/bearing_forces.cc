@@ -24,8 +24,8 @@ class Motion {
     require(series.dofs == system_.names(),
             fmt::format("a time series of {} degrees of freedom belongs to another stage than this one of {}",
                         series.dofs.size(), system_.dofs()));
-    require(series.force.rows() == 2 * stage.planets(),
-            fmt::format("{} mesh forces for {} planets, which have two each", series.force.rows(), stage.planets()));
+    const auto meshes = static_cast<Eigen::Index>(system_.meshes().size());
+    require(series.force.rows() == meshes, fmt::format("{} forces of {} meshes", series.force.rows(), meshes));
   }
 
   [[nodiscard]] Eigen::RowVectorXd displacement(const std::string& dof) const { return row(series_.displacement, dof); }
@@ -102,11 +102,30 @@ Eigen::RowVectorXd pin_force_by_equilibrium(const PlanetaryStage& stage, const T
   return -sun_b * series.force.row(n) - ring_b * series.force.row(stage.planets() + n) - inertia;
 }
 
+/// Of a bearing with play, which contains the centrifugal force: its elements, turned back from along and across the
+/// mean pin force.
+void set_pin_force_with_play(const PlanetaryStage& stage, const TimeSeries& series, int n, Eigen::Index first,
+                             BearingForces& result) {
+  const Eigen::Vector2d mean = stage.mean_pin_force();
+  const Eigen::Vector2d along = mean.norm() > 0 ? Eigen::Vector2d(mean.normalized()) : Eigen::Vector2d::UnitY();
+  const auto force = series.force.row(first), across = series.force.row(first + 1);
+  result.radial.row(n) = along[0] * force - along[1] * across;
+  result.tangential.row(n) = along[1] * force + along[0] * across;
+}
+
 BearingForces pin_forces(const PlanetaryStage& stage, const TimeSeries& series, Motion& motion) {
   BearingForces result;
   result.radial.resize(stage.planets(), series.time.size());
   result.tangential.resize(stage.planets(), series.time.size());
-  for (int n = 0; n < stage.planets(); ++n)
+  const double centrifugal =
+      stage.rotating_frame ? stage.planet.mass * stage.carrier.radius * stage.carrier_speed * stage.carrier_speed : 0;
+  Eigen::Index with_play = 2 * static_cast<Eigen::Index>(stage.planets());
+  for (int n = 0; n < stage.planets(); ++n) {
+    if (stage.planet_bearing(n).play > 0) {
+      set_pin_force_with_play(stage, series, n, with_play, result);
+      with_play += 2;
+      continue;
+    }
     for (const auto direction : {Direction::radial, Direction::tangential}) {
       const bool radial = direction == Direction::radial;
       const auto name = "planet" + std::to_string(n + 1) + (radial ? "_bearing_radial" : "_bearing_tangential");
@@ -114,8 +133,8 @@ BearingForces pin_forces(const PlanetaryStage& stage, const TimeSeries& series, 
       (radial ? result.radial : result.tangential).row(n) =
           spring ? motion.force(*spring) : pin_force_by_equilibrium(stage, series, motion, n, direction);
     }
-  if (stage.rotating_frame)
-    result.radial.array() += stage.planet.mass * stage.carrier.radius * stage.carrier_speed * stage.carrier_speed;
+    result.radial.row(n).array() += centrifugal;
+  }
   return result;
 }
 

@@ -64,7 +64,7 @@ void declare_motion(std::vector<FigureSpec>& list, const std::string& prefix, co
   add("_peak_to_peak_m", "peak to peak, µm", "peak-to-peak value of ");
 }
 
-std::vector<FigureSpec> declared() {
+std::vector<FigureSpec> planetary_specs() {
   std::vector<FigureSpec> list;
   declare_meshes(list, sun_meshes, "sun meshes", MeshKind::sun);
   declare_meshes(list, ring_meshes, "ring meshes", MeshKind::ring);
@@ -95,7 +95,7 @@ void add(FigureSet& set, const std::string& prefix, const MeshKindResult& kind) 
 }  // namespace
 
 const std::vector<FigureSpec>& planetary_figures() {
-  static const auto list = declared();
+  static const auto list = planetary_specs();
   return list;
 }
 

@@ -142,6 +142,13 @@ PlanetBearing PlanetaryStage::planet_bearing(int n) const {
   return planet_bearings.size() == 1 ? planet_bearings.front() : planet_bearings[static_cast<std::size_t>(n)];
 }
 
+Eigen::Vector2d PlanetaryStage::mean_pin_force() const {
+  const double force = mean_mesh_force(), speed = rotating_frame ? carrier_speed : 0;
+  return {force * (std::sin(sun_working_angle) - std::sin(ring_working_angle)) +
+              planet.mass * carrier.radius * speed * speed,
+          force * (std::cos(sun_working_angle) + std::cos(ring_working_angle))};
+}
+
 double PlanetaryStage::mesh_rate() const { return ring_teeth * rolling_speed(*this) / (2 * std::numbers::pi); }
 
 double PlanetaryStage::mesh_frequency() const { return std::abs(mesh_rate()); }
@@ -181,6 +188,13 @@ void PlanetaryStage::check() const {
   for (const auto& bearing : planet_bearings) {
     check_support(bearing.radial, "planet bearing stiffness (radial)", ZeroStiffness::refused);
     check_support(bearing.tangential, "planet bearing stiffness (tangential)", ZeroStiffness::refused);
+    check_support(bearing.pin, "stiffness of a planet pin", ZeroStiffness::refused);
+    check_not_negative(bearing.play, "play of a planet bearing");
+    if (bearing.play > 0 && (bearing.radial != bearing.tangential || bearing.radial == rigid))
+      throw InputError(
+          fmt::format("a planet bearing with play needs one finite stiffness in all directions, not {} N/m radially and "
+                      "{} N/m tangentially",
+                      bearing.radial, bearing.tangential));
   }
   if (planets() < 1) throw InputError(fmt::format("a planetary stage needs at least one planet, not {}", planets()));
   for (const double angle : planet_angles)

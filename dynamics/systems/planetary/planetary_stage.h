@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -59,6 +60,9 @@ struct PlanetBody {
 /// it then moves with the carrier, to which its mass is added.
 struct PlanetBearing {
   double radial = rigid, tangential = rigid;
+  /// m, half of the radial clearance: the bearing then is a RadialBearing, whose stiffnesses are equal and finite.
+  double play = 0;
+  double pin = rigid;  ///< N/m, in series with a bearing that has play; of others it is part of the stiffnesses
 };
 
 /// A planetary stage as lumped masses; SI. Any of sun, carrier and ring may be held or turn. After [HuFangXuShen2021,
@@ -122,6 +126,9 @@ struct PlanetaryStage {
   [[nodiscard]] const CentralBody& body(geometry::StageMember member) const { return this->*body_of(member); }
   [[nodiscard]] CentralBody& body(geometry::StageMember member) { return this->*body_of(member); }
   [[nodiscard]] PlanetBearing planet_bearing(int n) const;
+  /// Force of a planet on its pin under the mean mesh force, N: radial outwards, with the centrifugal force, and in the
+  /// sense of rotation.
+  [[nodiscard]] Eigen::Vector2d mean_pin_force() const;
   [[nodiscard]] int planets() const { return static_cast<int>(planet_angles.size()); }
   [[nodiscard]] double mesh_rate() const;        ///< Hz: z_r (Omega_c - Omega_r) / 2 pi
   [[nodiscard]] double mesh_frequency() const;   ///< Hz: |mesh_rate|
@@ -162,7 +169,8 @@ void set_kinematics(PlanetaryStage& stage, const geometry::PlanetarySet& set);
 
 /// The stage as elements. DOFs in the order sun, ring, carrier, planet1 ... planetN, each with x, y, u unless rigid,
 /// named sun_x, sun_y, sun_u, ..., planet1_x, ..., then ring_mode1, ... Meshes: sun_planet1 ... sun_planetN,
-/// ring_planet1 ... Throws what `check` throws.
+/// ring_planet1 ...; then planet1_bearing_along, planet1_bearing_across (the mean pin force) ... of bearings with play.
+/// Their planets are loaded by their centrifugal forces. Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const PlanetaryStage& stage);
 
 }  // namespace annulus::dynamics

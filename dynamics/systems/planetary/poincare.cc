@@ -26,10 +26,13 @@ PoincareSection poincare_section(const PlanetaryStage& stage, const TimeSeries& 
       sun.row(first++) = series.displacement.row(i);
       result.quantities.push_back(dof + "_m");
     }
-  for (const auto& mesh : system.meshes()) result.quantities.push_back(mesh.name + "_deflection_m");
-  for (const auto& mesh : system.meshes()) result.quantities.push_back(mesh.name + "_force_N");
+  const Eigen::Index toothed = 2 * static_cast<Eigen::Index>(stage.planets());  // bearings with play follow
+  for (const char* quantity : {"_deflection_m", "_force_N"})
+    for (Eigen::Index m = 0; m < toothed; ++m)
+      result.quantities.push_back(system.meshes()[static_cast<std::size_t>(m)].name + quantity);
   Eigen::MatrixXd values(static_cast<Eigen::Index>(result.quantities.size()), series.time.size());
-  values << sun.topRows(first), deflections(system, series.time, series.displacement), series.force;
+  values << sun.topRows(first), deflections(system, series.time, series.displacement).topRows(toothed),
+      series.force.topRows(toothed);
   result.swing = values.rowwise().maxCoeff() - values.rowwise().minCoeff();
   const Eigen::Index cycles = values.cols() / samples_per_cycle;
   result.points.resize(values.rows(), cycles);

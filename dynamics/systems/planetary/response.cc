@@ -66,7 +66,7 @@ double force_balance(const PlanetaryStage& stage, const LumpedSystem& system, co
   const int u = system.find(sun ? "sun_u" : "ring_u");
   const double duration = found.window_cycles / stage.mesh_frequency();
   const Eigen::MatrixXd all = averaging_force(found.best);
-  const double forces = (sun ? all.topRows(stage.planets()) : all.bottomRows(stage.planets())).colwise().sum().mean();
+  const double forces = all.middleRows(sun ? 0 : stage.planets(), stage.planets()).colwise().sum().mean();
   const double support = system.stiffness()(u, u) * found.best.displacement.row(u).mean() +
                          system.damping()(u, u) * (found.end.q[u] - found.begin.q[u]) / duration;
   const double inertia = system.mass()(u, u) * (found.end.v[u] - found.begin.v[u]) / duration;
@@ -88,7 +88,9 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
                               .start = options.start};
   auto found = steady_response(system, problem, options);
   static_cast<SteadyOutcome&>(response) = static_cast<const SteadyOutcome&>(found);
-  response.cycle_force = cycle_means(averaging_force(found.best), found.window_cycles);
+  response.cycle_force =
+      cycle_means(averaging_force(found.best).topRows(2 * static_cast<Eigen::Index>(stage.planets())),
+                  found.window_cycles);
   response.force_balance_relative = force_balance(stage, system, found);
   set_figures(stage, options, found, response);
   if (options.keep_series) response.series = series_of(system, std::move(found.best));
@@ -107,7 +109,7 @@ QuasiStatic quasi_static(const PlanetaryStage& stage, int positions_per_cycle, i
   const int positions = positions_per_cycle * std::min(stage.error_period(), max_cycles);
   const auto path = static_path(assemble(stage), Eigen::VectorXd::LinSpaced(positions, 0, positions - 1) /
                                                      (positions_per_cycle * stage.mesh_frequency()));
-  return {path.force.topRows(stage.planets()), path.force.bottomRows(stage.planets())};
+  return {path.force.topRows(stage.planets()), path.force.middleRows(stage.planets(), stage.planets())};
 }
 
 }  // namespace annulus::dynamics

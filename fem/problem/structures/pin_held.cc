@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/circular_beam.h"
 #include "core/errors.h"
 #include "fem/problem/ring_structure.h"
 
@@ -82,10 +83,7 @@ double derived_pin_stiffness(const Material& material, double length) {
 
 double pin_span_stiffness(const Material& material, double diameter, double span) {
   if (span <= 0) return std::numeric_limits<double>::infinity();
-  const double E = material.youngs_modulus, nu = material.poisson_ratio;
-  const double second_moment = M_PI * std::pow(diameter, 4) / 64, area = M_PI * diameter * diameter / 4;
-  const double kappa = 6 * (1 + nu) / (7 + 6 * nu), shear_modulus = E / (2 * (1 + nu));
-  return 2 / (std::pow(span, 3) / (12 * E * second_moment) + span / (kappa * shear_modulus * area));
+  return 2 / CircularBeam{diameter, material.youngs_modulus, material.poisson_ratio}.parallel_shift(span);
 }
 
 }  // namespace annulus::fem
