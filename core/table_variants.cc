@@ -37,7 +37,8 @@ StiffnessTable changed(const StiffnessTable& table, int step, Change change) {
     for (int phase = 0; phase < table.phases(); phase += step)
       for (int load = 0; load < loads; ++load)
         entries.push_back(change(table.at(position, phase, load), load,
-                                 plays[static_cast<std::size_t>(position * table.phases() + phase)]));
+                                 plays[static_cast<std::size_t>(position) * static_cast<std::size_t>(table.phases()) +
+                                       static_cast<std::size_t>(phase)]));
   StiffnessTable result(table.mesh(), table.phases() / step, table.ring_angles(), table.loads(), std::move(entries));
   result.provenance = table.provenance;
   return result;

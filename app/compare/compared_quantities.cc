@@ -19,6 +19,7 @@ std::vector<const ComparedVariant*> all_variants(const std::vector<ComparedRun>&
 
 ComparedQuantity quantity_of(const FigureSpec& declared, const std::vector<const ComparedVariant*>& variants) {
   std::vector<double> values;
+  values.reserve(variants.size());
   for (const auto* variant : variants) values.push_back(variant->figures.value(declared.key));
   const auto spec = in_readable_unit(declared, values);
   ComparedQuantity compared{.spec = spec, .si = {spec.quantity, spec.title, {}, spec.digits}};

@@ -151,6 +151,7 @@ std::string table_text(const std::vector<std::string>& names, const std::vector<
 template <class Items>
 std::vector<std::string> names_of(const Items& items) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const auto& item : items) names.push_back(item.name);
   return names;
 }

@@ -15,6 +15,7 @@ const std::string& example_scene(const std::string& name) {
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& example) { return example.name == name; });
   if (found != all.end()) return found->text;
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const auto& example : all) names.push_back(example.name);
   const std::string near = nearest(name, names);
   throw InputError(fmt::format("{}: there is no such example{}; the examples are {}", name,

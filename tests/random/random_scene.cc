@@ -30,6 +30,8 @@ double usual_number(Draw& draw, const Parameter& p, const Scales& scales) {
   if (p.name == "protuberance_um") return 1e3 * scales.module_mm * draw.uniform(0.005, 0.03);
   if (p.name == "protuberance_angle_deg") return draw.uniform(5, 15);
   if (ends_with(p, "chamfer_mm")) return scales.module_mm * draw.uniform(0.03, 0.12);
+  if (p.name == "planet_pin_diameter_mm") return scales.module_mm * draw.uniform(6, 12);
+  if (p.name == "planet_pin_length_mm") return scales.module_mm * draw.uniform(8, 25);
   if (ends_with(p, "length_mm")) return scales.module_mm * draw.uniform(0.1, 0.6);
   if (ends_with(p, "damping_ratio")) return draw.log_uniform(0.01, 0.15);
   if (p.name == "ripple") return draw.log_uniform(0.01, 0.3);

@@ -87,7 +87,7 @@ MeshPlaces mesh_places(const geometry::GearPair& pair, const fem::LoadedPosition
 
 /// Page axes: the line of centres upright; of solids from a little before their lower faces.
 Eigen::Matrix3d page_axes(int dimension) {
-  const Eigen::Matrix3d upright = Eigen::AngleAxisd(90 * units::deg, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  Eigen::Matrix3d upright = Eigen::AngleAxisd(90 * units::deg, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   if (dimension == 2) return upright;
   // The eye below the plane sees the sectors of the lower half of a symmetric face from outside.
   const auto behind = Eigen::AngleAxisd(180 * units::deg, Eigen::Vector3d::UnitY());
@@ -175,7 +175,7 @@ DeformedMesh deformed_mesh(const fem::BodyField& planet, const fem::BodyField& w
   return view;
 }
 
-void share_colours(std::vector<DeformedMesh*> views) {
+void share_colours(const std::vector<DeformedMesh*>& views) {
   double top = 0;
   for (const auto* view : views) top = std::max(top, view->top_MPa);
   if (!(top > 0)) return;

@@ -34,7 +34,7 @@ struct DeformedMesh {
                                          const std::string& name);
 
 /// One scale for all views: up to the largest of their tops, rounded up.
-void share_colours(std::vector<DeformedMesh*> views);
+void share_colours(const std::vector<DeformedMesh*>& views);
 
 /// Displacements exaggerated, coloured by von Mises stress; grey: the outline of a plane body without load.
 [[nodiscard]] std::string to_svg(const DeformedMesh& view);

@@ -54,8 +54,9 @@ bool on_back_flanks(const MeshKindResult& kind, const MeshResult& mesh) {
 
 /// The stage with the supports of its ring half their pattern further for back flanks: where they stand is not known.
 dynamics::PlanetaryStage with_moved_supports(dynamics::PlanetaryStage stage, int positions) {
+  const int half = positions / 2;  // whole mesh cycles
   if (auto* table = std::get_if<dynamics::TableStiffness>(&stage.ring_mesh))
-    table->back_flank_phase = table->back_flank_phase.value_or(0) + positions / 2;
+    table->back_flank_phase = table->back_flank_phase.value_or(0) + half;
   return stage;
 }
 

@@ -83,6 +83,7 @@ class PitchChecks : KeyChecks {
         list.insert(list.end(), one.begin(), one.end());
       }
       std::vector<double> shown;
+      shown.reserve(list.size());
       for (const double value : list) shown.push_back(value / units::um);
       set(list_key, shown, Origin::derived,
           fmt::format("drawn: f_pT = {} µm and F_pT = {} µm of class {} [ISO1328-1]",

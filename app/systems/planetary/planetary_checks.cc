@@ -95,12 +95,7 @@ class PlanetaryChecker : KeyChecks {
     const auto& s = scene_.supports;
     const std::string clearance = "supports.planet_clearance_um";
     if (s.planet_clearance == 0 || !usable(clearance) || !usable("supports.planet_N_per_m")) return;
-    if (s.planet == rigid)
-      problem(clearance, "needs a bearing that gives way: supports.planet_N_per_m is rigid");
-    else if (!s.planet_radial.empty() || !s.planet_tangential.empty())
-      problem(clearance,
-              "needs a bearing of one stiffness in all directions: leave supports.planet_radial_N_per_m and "
-              "supports.planet_tangential_N_per_m out");
+    if (s.planet == rigid) problem(clearance, "needs a bearing that gives way: supports.planet_N_per_m is rigid");
   }
 
   void list(const std::string& key, std::vector<double>& values) {

@@ -51,6 +51,7 @@ void check_ring_supports(const Scene& scene, const GearGeometry& geometry, std::
 /// outermost two share them.
 double least_bearing_load(const geometry::PlanetarySet& set) {
   std::vector<double> angles;
+  angles.reserve(static_cast<std::size_t>(set.planets()));
   for (int n = 0; n < set.planets(); ++n) angles.push_back(set.planet_angle(n));
   std::sort(angles.begin(), angles.end());
   double widest_gap = 2 * std::numbers::pi - angles.back();

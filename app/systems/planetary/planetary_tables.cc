@@ -190,6 +190,8 @@ Table supports_table() {
            "stop. Rollers then carry over a part of the bearing that grows with the load; planet_N_per_m is the "
            "stiffness without clearance.")
       .only_if(given("planet_N_per_m"), "the bearing needs a stiffness")
+      .refused_if(given("planet_radial_N_per_m"), "the bearing has one stiffness in all directions")
+      .refused_if(given("planet_tangential_N_per_m"), "the bearing has one stiffness in all directions")
       .fallback(0.0, "rollers carry on both sides of the bearing")
       .from(0, 1000);
   supports

@@ -172,6 +172,7 @@ SharingQuantiles quantiles_of(const std::vector<double>& factors) {
 /// By torque share.
 std::vector<PerfectStage> perfect_stages(const PlanetaryStage& stage, const std::vector<double>& torque_shares) {
   std::vector<PerfectStage> list;
+  list.reserve(torque_shares.size());
   for (const double share : torque_shares) list.emplace_back(at_share(stage, share));
   return list;
 }

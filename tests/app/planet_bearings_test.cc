@@ -1,0 +1,170 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "app/plan/gear_geometry.h"
+#include "app/systems/planetary/planetary_model.h"
+#include "app/systems/planetary/stage_supports.h"
+#include "app/systems/planetary/stage_warnings.h"
+#include "core/csv.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "core/units.h"
+#include "dynamics/system/radial_bearing.h"
+#include "tests/app/run_program.h"
+#include "tests/app/scene_refusal.h"
+#include "tests/app/scenes.h"
+#include "tests/temporary_folder.h"
+#include "tests/verification_record.h"
+
+/// Clearance of planet bearings and the pins that carry them.
+BOOST_AUTO_TEST_SUITE(planet_bearings)
+
+using namespace annulus;
+
+namespace {
+
+std::string with_bearing(const std::string& keys) {
+  return test::replaced(test::quick_scene(), "planet_N_per_m = 1e9\n", keys);
+}
+
+app::Scene scene_of(const std::string& keys) { return app::parse_scene(with_bearing(keys), "scene.toml"); }
+
+dynamics::PlanetaryStage stage_of(const std::string& keys) {
+  const auto scene = scene_of(keys);
+  const auto geometry = app::make_geometry(scene);
+  const app::MeshResult none{.model = app::sun_mesh_model(scene, geometry), .table = {}, .tabulated = false};
+  return app::make_stage(scene, geometry, 0, none, none);
+}
+
+std::string pin(const std::string& mounting, double diameter_mm, double length_mm) {
+  return "planet_pin = \"" + mounting + "\"\nplanet_pin_diameter_mm = " + std::to_string(diameter_mm) +
+         "\nplanet_pin_length_mm = " + std::to_string(length_mm) + "\n";
+}
+
+/// Deflection and slope under a unit force, by integrating the beam's equations from the clamped end: slope' = M / E I,
+/// deflection' = slope + V / (kappa G A). `moment(x)`: N m of a unit force; V = 1.
+struct Deflected {
+  double deflection = 0, slope = 0;
+};
+template <class Moment>
+Deflected integrate(double diameter, double length, const Moment& moment) {
+  const double E = 206e9, nu = 0.3, inertia = std::numbers::pi * std::pow(diameter, 4) / 64,
+               area = std::numbers::pi * diameter * diameter / 4;
+  const double shear = 6 * (1 + nu) / (7 + 6 * nu) * E / (2 * (1 + nu)) * area;
+  Deflected at;
+  constexpr int steps = 20000;
+  const double h = length / steps;
+  for (int i = 0; i < steps; ++i) {
+    const double slope = at.slope + moment((i + 0.5) * h) / (E * inertia) * h / 2;
+    at.deflection += h * (slope + 1 / shear);
+    at.slope += h * moment((i + 0.5) * h) / (E * inertia);
+  }
+  return at;
+}
+
+}  // namespace
+
+// Midpoint rule with 20000 steps: (1/20000)^2.
+BOOST_AUTO_TEST_CASE(pins_bend_as_beams) {
+  test::Verification record("Stiffness of planet pins", "the beam's differential equations, integrated");
+  const double d = 80e-3, length = 160e-3;
+  const auto compliance = [&](const char* mounting) {
+    return 1 / app::pin_stiffness(scene_of("planet_N_per_m = 1e9\n" + pin(mounting, 80, 160)));
+  };
+  const auto cantilever = integrate(d, length, [&](double x) { return length - x; });
+  record.close("cantilever", "m/N", compliance("cantilever"), cantilever.deflection, 1e-7);
+  // A unit force over the middle of the pin: on its end it acts with a moment of -L/2.
+  const auto flexpin = integrate(d, length, [&](double x) { return length / 2 - x; });
+  record.close("flexpin", "m/N", compliance("flexpin"), flexpin.deflection, 1e-7);
+  record.near("slope at the end of a flexpin", "rad/N", flexpin.slope, 0, 1e-16);
+  // By symmetry each half takes half of the force, and the middle does not turn.
+  const auto half = integrate(d, length / 2, [&](double x) { return length / 4 - x; });
+  record.near("slope in the middle", "rad/N", half.slope, 0, 1e-16);
+  record.close("between walls", "m/N", compliance("between_walls"), half.deflection / 2, 1e-7);
+  const auto scene = scene_of("planet_N_per_m = 1e9\n" + pin("cantilever", 80, 160));
+  record.close("tilt of a cantilever", "rad/N", app::pin_tilt(scene, 1), cantilever.slope, 1e-7);
+  BOOST_TEST(app::pin_stiffness(scene_of("planet_N_per_m = 1e9\n")) == app::rigid);
+}
+
+BOOST_AUTO_TEST_CASE(keys_reach_the_model) {
+  const auto close = [](double a, double b) { return std::abs(a - b) <= 1e-12 * b; };
+  const auto plain = stage_of("planet_N_per_m = 8e8\n").planet_bearing(1);
+  BOOST_TEST((plain.radial == 8e8 && plain.play == 0 && plain.pin == dynamics::rigid));
+  const auto loose = stage_of("planet_N_per_m = 8e8\nplanet_clearance_um = 30\n").planet_bearing(1);
+  BOOST_TEST((loose.radial == 8e8 && loose.tangential == 8e8 && close(loose.play, 15e-6)));
+  const auto keys = "planet_N_per_m = 8e8\n" + pin("flexpin", 70, 150);
+  const double stiffness = app::pin_stiffness(scene_of(keys));
+  // Without clearance the pin is a part of the bearing, with it a seat in series.
+  const auto bent = stage_of(keys).planet_bearing(0);
+  BOOST_TEST((close(bent.radial, 1 / (1 / 8e8 + 1 / stiffness)) && bent.pin == dynamics::rigid));
+  const auto both = stage_of(keys + "planet_clearance_um = 30\n").planet_bearing(0);
+  BOOST_TEST((both.radial == 8e8 && close(both.pin, stiffness)));
+  // A pin alone, and beside bearings of their own.
+  BOOST_TEST(close(stage_of(pin("flexpin", 70, 150)).planet_bearing(4).tangential, stiffness));
+  const auto own = stage_of("planet_radial_N_per_m = [1e9, 2e9, 3e8, inf, 5e8]\n" + pin("flexpin", 70, 150));
+  BOOST_TEST(close(own.planet_bearing(3).radial, stiffness));
+  BOOST_TEST(close(own.planet_bearing(1).radial, 1 / (1 / 2e9 + 1 / stiffness)));
+  // However stiff, a bearing with clearance keeps its degree of freedom.
+  BOOST_TEST(std::isfinite(stage_of("planet_N_per_m = 1e15\nplanet_clearance_um = 3\n").planet_bearing(0).radial));
+}
+
+BOOST_AUTO_TEST_CASE(contradictions_are_refused) {
+  const auto refused = [](const std::string& keys, const std::string& words) {
+    const auto text = test::scene_refusal(with_bearing(keys));
+    BOOST_TEST(text.find(words) != std::string::npos, "\"" << text << "\" does not say \"" << words << "\"");
+  };
+  refused("planet_clearance_um = 20\n", "supports.planet_clearance_um");
+  refused("planet_N_per_m = \"rigid\"\nplanet_clearance_um = 20\n", "needs a bearing that gives way");
+  refused("planet_N_per_m = 1e9\nplanet_clearance_um = -1\n", "0 <= value <= 1000");
+  refused("planet_N_per_m = 1e9\nplanet_clearance_um = 20\nplanet_radial_N_per_m = [1e9, 1e9, 1e9, 1e9, 1e9]\n",
+          "one stiffness in all directions");
+  refused("planet_N_per_m = 1e9\nplanet_pin = \"cantilever\"\nplanet_pin_length_mm = 50\n", "planet_pin_diameter_mm");
+  refused("planet_N_per_m = 1e9\nplanet_pin_diameter_mm = 50\n", "planet_pin_diameter_mm");
+  refused("planet_N_per_m = 1e9\nplanet_pin = \"flexible\"\n", "flexpin");
+}
+
+BOOST_AUTO_TEST_CASE(what_a_plane_model_leaves_out_is_said) {
+  const auto warnings = [](const std::string& keys) {
+    const auto scene = scene_of(keys);
+    std::string text;
+    for (const auto& warning : app::stage_scene_warnings(scene, app::make_geometry(scene)))
+      text += warning.text + "\n";
+    return text;
+  };
+  const auto tilted = warnings("planet_N_per_m = 1e9\n" + pin("cantilever", 80, 120));
+  BOOST_TEST(tilted.find("cantilevered planet pins tilt") != std::string::npos, tilted);
+  BOOST_TEST(warnings("planet_N_per_m = 1e9\n" + pin("flexpin", 80, 120)).find("tilt") == std::string::npos);
+  // A scene that describes its pins does not leave the planets' bearings out.
+  const auto left_out = [&](const std::string& keys) {
+    return warnings(keys).find("supports.planet_N_per_m") != std::string::npos;
+  };
+  BOOST_TEST(left_out(""));
+  BOOST_TEST(!left_out(pin("flexpin", 80, 120)));
+}
+
+// A run states load zones, and they are those of its pin forces.
+BOOST_AUTO_TEST_CASE(a_run_with_clearance) {
+  const test::TemporaryFolder folder("planet_bearings");
+  write_file(folder.path() / "scene.toml", with_bearing("planet_N_per_m = 1e9\nplanet_clearance_um = 40\n"));
+  const auto outcome = test::run_program(folder.path(), "run scene.toml --out out");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  const auto summary = Json::parse(read_file(folder.path() / "out" / "summary.json"));
+  const auto& forces = summary["rings"]["held"]["bearing_forces"];
+  const dynamics::RadialBearing law(1e9, 20e-6);
+  const auto csv = Csv::read(folder.path() / "out" / "held" / "dynamics" / "bearing_forces.csv");
+  double smallest = 360;
+  for (int n = 1; n <= 5; ++n) {
+    const auto planet = "planet" + std::to_string(n);
+    const auto zone = csv.column(planet + "_load_zone_min_deg"), force = csv.column(planet + "_resultant_min_N");
+    for (const auto& row : csv.rows) {
+      BOOST_TEST(std::abs(row[zone] - law.load_zone(row[force]) / units::deg) <= 1e-3);
+      smallest = std::min(smallest, row[zone]);
+    }
+  }
+  BOOST_TEST(std::abs(forces["load_zone_min_deg"].get<double>() - smallest) <= 1e-3);
+  BOOST_TEST((smallest > 0 && smallest < 180));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
