@@ -8,7 +8,7 @@ namespace annulus::dynamics {
 ///
 /// Many equal rollers of linear stiffness stand around the bearing; those carry whose raceways have approached each
 /// other by more than the play. With the distance d, the radial play p and the half load zone z = arccos(p / d) their
-/// forces add up to [HarrisKotzalas2006, radial load distribution], here with an exponent of 1,
+/// forces add up to [HarrisKotzalas2006, load distribution of radially loaded bearings], here with an exponent of 1,
 ///
 ///   F = K (2 / pi) (z - sin z cos z) d   for d > p,
 ///
