@@ -82,7 +82,7 @@ double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSett
 
 double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
   if (settings.fidelity == Fidelity::closed_form || settings.fidelity == Fidelity::plane)
-    return problem.structure.single_supports();
+    return problem.structure.single_supports() + (problem.planet_rollers ? problem.pair.pinion().teeth() : 0);
   if (settings.fidelity != Fidelity::solid) return 0;
   const SupportSites sites = support_sites(problem);
   const int cells = solid_resolution(level, settings.degree, problem.pair.overlap_ratio()).face_cells;

@@ -28,6 +28,11 @@ enum class Boundary : int {
   flange_face = 14,  ///< bolted face of a flange: its lower face beyond the ring's outside diameter (3D)
 };
 
+/// The flank on the other side of a tooth.
+[[nodiscard]] constexpr Boundary opposite_flank(Boundary flank) {
+  return flank == Boundary::leading_flank ? Boundary::trailing_flank : Boundary::leading_flank;
+}
+
 /// The exact outline of one tooth: involute flanks with modifications left out, root fillets (generated trochoid for
 /// external gears, circular for internal ones), root and tip circles. A tooth with a tip chamfer ends at the circle
 /// where the chamfer begins: what is beyond it carries next to nothing. Of a helical gear it is the transverse section

@@ -9,7 +9,7 @@
 
 #include "dynamics/system/curve_bundle.h"
 #include "dynamics/system/mesh_excitation.h"
-#include "dynamics/system/radial_bearing.h"
+#include "core/radial_bearing.h"
 
 namespace annulus::dynamics {
 

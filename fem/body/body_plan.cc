@@ -39,6 +39,8 @@ BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfil
     throw InputError(
         fmt::format("a plane model cannot represent a ring {}: {}", words.description, words.solid_reason));
   ring_ = structure.body(outside);
+  const bool on_rollers = !wheel && problem.planet_rollers.has_value();
+  if (on_rollers) ring_.held = HeldSurface::none;
   const bool face_held = ring_.held == HeldSurface::low_end_face || ring_.held == HeldSurface::both_end_faces;
   if (face_held && !(ring_.held_inner_radius > 0 && ring_.held_inner_radius < outside))
     throw InputError(
@@ -73,6 +75,7 @@ BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfil
       }
       model_.held = HeldBoundary::none;
       model_.outputs = {SectorOutput::outside};
+      if (on_rollers) model_.outputs.insert(SectorOutput::other_flank);
       break;
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/body/gear_body.h"
 #include "fem/elasticity/sector_model.h"
 #include "geometry/mesh.h"
 #include "geometry/profile.h"
@@ -12,6 +13,7 @@ struct BodySource {
   const geometry::ToothProfile* profile = nullptr;
   double support_radius = 0;
   SectorModelOptions options;
+  OtherFlankLoads other_flank{};
 };
 
 }  // namespace annulus::fem

@@ -55,10 +55,10 @@ Eigen::RowVector3d GearBody::rigid_motion(int port, int sector) const {
   return {d.x(), d.y(), p.x() * d.y() - p.y() * d.x()};
 }
 
-Wrench GearBody::arc_wrench(int arc, int sector) const {
+Wrench GearBody::acting_wrench(int load, int sector) const {
   const Eigen::AngleAxisd turn(sector * pitch_angle, Eigen::Vector3d::UnitZ());
   Wrench turned;
-  turned << turn * arc_wrenches[arc].head<3>(), turn * arc_wrenches[arc].tail<3>();
+  turned << turn * acting_wrenches[load].head<3>(), turn * acting_wrenches[load].tail<3>();
   return turned;
 }
 
@@ -83,6 +83,46 @@ std::vector<Port> flank_forces(const SectorModel& model, const geometry::ToothPr
     ports.push_back({node, -flank_normal(profile, roll, side, point.z())});
   }
   return ports;
+}
+
+namespace {
+
+/// m, roll lengths of places on a flank between the first and the last of its nodes.
+std::vector<double> rolls_of(const TraceGrid& flank, int places) {
+  std::vector<double> rolls;
+  rolls.reserve(static_cast<std::size_t>(places));
+  const double low = flank.profile.front(), high = flank.profile.back();
+  for (int i = 0; i < places; ++i) rolls.push_back(low + (high - low) * i / (places - 1));
+  return rolls;
+}
+
+}  // namespace
+
+std::vector<NodalLoad> other_flank_loads(const SectorModel& model, const geometry::ToothProfile& profile,
+                                         geometry::Boundary contact_flank, const OtherFlankLoads& loads) {
+  std::vector<NodalLoad> result;
+  if (loads.places == 0) return result;
+  const auto& flank = model.other_flank;
+  require(!flank.nodes.empty() && loads.places > 1, "loads on a flank whose nodes are not known");
+  const TraceBasis basis(flank.profile, flank.degree);
+  const auto over_width = flank.axial.size() == 1
+                              ? std::vector<double>{1.0}
+                              : TraceBasis(flank.axial, flank.degree).mean_over(loads.z_low, loads.z_high);
+  const double side = contact_flank == geometry::Boundary::leading_flank ? -1 : 1;
+  for (const double roll : rolls_of(flank, loads.places)) {
+    auto& load = result.emplace_back();
+    const auto at = basis(roll);
+    for (std::size_t i = 0; i < at.weights.size(); ++i)
+      for (std::size_t z = 0; z < over_width.size(); ++z) {
+        const double weight = at.weights[i] * over_width[z];
+        const int node = flank.nodes[(static_cast<std::size_t>(at.first) + i) * over_width.size() + z];
+        const auto& point = model.nodes[node];
+        const Eigen::Vector3d into =
+            -flank_normal(profile, profile.roll_length_at(std::hypot(point.x(), point.y())), side, point.z());
+        if (weight != 0) load.push_back({node, weight / into.head<2>().norm() * into});
+      }
+  }
+  return result;
 }
 
 template <class Stream>
@@ -116,7 +156,7 @@ template <class Stream>
 void members(Stream& stream, UnitTooth& unit) {
   GearBody& body = unit.tooth.body;
   stream(unit.tooth.seconds, body.teeth, body.pitch_angle, body.unknowns, body.flank, body.axial, body.ports,
-         body.port_points, body.arc_wrenches, body.root_low, body.root_high, body.rim, unit.outside, unit.tooth.sector);
+         body.port_points, body.acting_wrenches, body.other_rolls, body.root_low, body.root_high, body.rim, unit.outside, unit.tooth.sector);
 }
 
 UnitTooth condense_unit_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
@@ -138,8 +178,13 @@ UnitTooth condense_unit_tooth(const geometry::Mesh& sector_mesh, const geometry:
   if (!options.arcs.empty()) {
     unit.outside = OutsideLoads::of(options.arcs, model.outside);
     loads.acting = unit.outside.unit_loads(model.outside);
-    for (const auto& load : loads.acting) body.arc_wrenches.push_back(resultant(load, model.nodes));
   }
+  if (options.other_flank.places > 0) {
+    body.other_rolls = rolls_of(model.other_flank, options.other_flank.places);
+    for (auto& load : other_flank_loads(model, profile, options.sector.flank, options.other_flank))
+      loads.acting.push_back(std::move(load));
+  }
+  for (const auto& load : loads.acting) body.acting_wrenches.push_back(resultant(load, model.nodes));
 
   constexpr int root_points = 60, rim_points = 24;
   body.root_low = observe(model.root_low, model, root_points, loads);
@@ -157,12 +202,14 @@ CondensedTooth with_arcs(UnitTooth unit, const std::vector<ArcLoad>& arcs) {
   if (arcs.empty()) return tooth;
   GearBody& body = tooth.body;
   const Eigen::MatrixXd weights = unit.outside.weights(arcs);
-  tooth.sector = combine_loads(std::move(tooth.sector), body.first_arc(), weights);
+  tooth.sector = combine_loads(std::move(tooth.sector), body.first_acting(), weights);
   Eigen::Matrix<double, 6, Eigen::Dynamic> units(6, weights.rows());
-  for (Eigen::Index i = 0; i < weights.rows(); ++i) units.col(i) = body.arc_wrenches[i];
+  for (Eigen::Index i = 0; i < weights.rows(); ++i) units.col(i) = body.acting_wrenches[i];
   const Eigen::Matrix<double, 6, Eigen::Dynamic> wrenches = units * weights;
-  body.arc_wrenches.clear();
-  for (Eigen::Index i = 0; i < wrenches.cols(); ++i) body.arc_wrenches.emplace_back(wrenches.col(i));
+  const std::vector<Wrench> others(body.acting_wrenches.begin() + weights.rows(), body.acting_wrenches.end());
+  body.acting_wrenches.clear();
+  for (Eigen::Index i = 0; i < wrenches.cols(); ++i) body.acting_wrenches.emplace_back(wrenches.col(i));
+  body.acting_wrenches.insert(body.acting_wrenches.end(), others.begin(), others.end());
   for (auto* line : {&body.root_low, &body.root_high, &body.rim})
     if (line->points() > 0) line->first_load += static_cast<int>(weights.cols() - weights.rows());
   return tooth;
@@ -182,6 +229,8 @@ CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry:
   inputs(std::string("tooth"));
   add_sector_inputs(inputs, sector_mesh, profile, support_radius, material, options.sector);
   add_slices(inputs, options.arcs);
+  const auto& other = options.other_flank;
+  if (other.places > 0) inputs(other.places, other.z_low, other.z_high);
   const bool reused = read_or_make(options.store, inputs, unit, make);
   CondensedTooth tooth = with_arcs(std::move(unit), options.arcs);
   tooth.reused = reused;

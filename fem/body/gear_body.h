@@ -30,7 +30,8 @@ struct StressLine {
 /// A whole gear reduced to the loads it takes and the stresses it is asked for, from one condensed sector.
 ///
 /// Loads of a sector in the order of `compliance`: flank ports, [profile station * axial stations + axial station],
-/// unit forces along the flank normal into the material; loads on arcs of a free outside; stresses.
+/// unit forces along the flank normal into the material; acting loads: on arcs of a free outside, then at places of the
+/// other flank; stresses.
 struct GearBody {
   int teeth = 0;
   double pitch_angle = 0;
@@ -38,7 +39,8 @@ struct GearBody {
   TraceBasis axial;  ///< over z; empty in the plane
   std::vector<Port> ports;
   std::vector<Eigen::Vector3d> port_points;
-  std::vector<Wrench> arc_wrenches;  ///< of the arc loads, in the sector's frame
+  std::vector<Wrench> acting_wrenches;  ///< of the acting loads, in the sector's frame
+  std::vector<double> other_rolls;      ///< m, roll lengths of the places on the other flank; empty without
   /// Root land and fillet of the trailing side (from the interface to the form circle) and of the leading side (from
   /// the form circle to the interface); the rim opposite, where it is free. Empty when stresses are not asked for.
   StressLine root_low, root_high, rim;
@@ -48,12 +50,13 @@ struct GearBody {
 
   [[nodiscard]] int axial_stations() const { return axial.size() > 0 ? axial.size() : 1; }
   [[nodiscard]] int flank_ports() const { return static_cast<int>(ports.size()); }
-  [[nodiscard]] int first_arc() const { return flank_ports(); }  ///< load number of the first arc load
+  [[nodiscard]] int first_acting() const { return flank_ports(); }  ///< load number of the first acting load
+  [[nodiscard]] int acting_loads() const { return static_cast<int>(acting_wrenches.size()); }
   /// In-plane rigid-motion displacement (x, y, rotation about the axis) of a port of sector `sector`, m per (m, m,
   /// rad), in the frame of sector 0. Its transpose gives the resultant of a unit port load.
   [[nodiscard]] Eigen::RowVector3d rigid_motion(int port, int sector) const;
-  /// Resultant of a unit arc load of sector `sector` in the frame of sector 0.
-  [[nodiscard]] Wrench arc_wrench(int arc, int sector) const;
+  /// Resultant of a unit acting load of sector `sector` in the frame of sector 0.
+  [[nodiscard]] Wrench acting_wrench(int load, int sector) const;
 };
 
 /// Force and moment of a load, in the sector's frame.
@@ -64,10 +67,20 @@ struct GearBody {
 [[nodiscard]] std::vector<Port> flank_forces(const SectorModel& model, const geometry::ToothProfile& profile,
                                              geometry::Boundary flank);
 
+/// Unit forces (N, transverse) along the normal of the other flank into the material, even over a part of the width.
+struct OtherFlankLoads {
+  int places = 0;                ///< equally spaced along the flank, its ends included
+  double z_low = 0, z_high = 0;  ///< m
+};
+/// They need SectorOutput::other_flank.
+[[nodiscard]] std::vector<NodalLoad> other_flank_loads(const SectorModel& model, const geometry::ToothProfile& profile,
+                                                       geometry::Boundary contact_flank, const OtherFlankLoads& loads);
+
 struct GearBodyOptions {
   SectorModelOptions sector;
   RingExtent extent;
   std::vector<ArcLoad> arcs;  ///< loads on a free outside
+  OtherFlankLoads other_flank;
   std::vector<WantedGauge> gauges;
   int threads = 1;
   const ResultStore* store = nullptr;  ///< where tooth superelements are cached; may be null

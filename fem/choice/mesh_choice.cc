@@ -54,7 +54,7 @@ std::string repeats_text(const LoadedMeshProblem& problem, int positions) {
 /// Formulas do where their error, known beforehand, is within the accuracy.
 void prefer_formulas(const LoadedMeshProblem& problem, const MeshWish& wish, MeshChoice& choice) {
   if (wish.model != WantedModel::automatic || choice.settings.fidelity != Fidelity::plane) return;
-  if (wish.accuracy < least_closed_form_error || !problem.gauges.empty()) return;
+  if (wish.accuracy < least_closed_form_error || !problem.gauges.empty() || problem.planet_rollers) return;
   if (geometry::measured(problem.pair.pinion().parameters()) || geometry::measured(problem.pair.wheel().parameters()))
     return;
   const double error = closed_form_error(problem);

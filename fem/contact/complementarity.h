@@ -18,6 +18,7 @@ struct ComplementarityProblem {
   Eigen::MatrixXd rigid;         ///< E, n x r
   Eigen::VectorXd load;          ///< t, r
   std::vector<bool> unilateral;  ///< n
+  Eigen::VectorXd applied_gap{};  ///< part of g by displacements under applied forces; empty without
 };
 
 struct ComplementaritySolution {

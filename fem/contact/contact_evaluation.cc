@@ -2,17 +2,51 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "core/errors.h"
+#include "fem/contact/planet_on_rollers.h"
 
 namespace annulus::fem {
 
-Eigen::VectorXd support_motion(const ContactBodies& bodies, const ComplementaritySolution& solution) {
-  Eigen::VectorXd motion = solution.rigid.tail(bodies.supports->rigid_motions());
-  motion.tail(motion.size() - 2) /= bodies.face.flanks().pair().wheel().reference_radius();
+std::vector<FloatingUnknowns> floating_unknowns(const ContactBodies& bodies, Eigen::Index contacts) {
+  const auto& pair = bodies.face.flanks().pair();
+  std::vector<FloatingUnknowns> list;
+  Eigen::Index force = contacts, motion = 1;
+  const auto add = [&](const SupportRow& row, double radius) {
+    list.push_back({&row, force, motion, radius});
+    force += row.unknowns();
+    motion += row.rigid_motions();
+  };
+  if (bodies.supports != nullptr) add(*bodies.supports, pair.wheel().reference_radius());
+  if (bodies.rollers != nullptr) add(bodies.rollers->row(), pair.pinion().reference_radius());
+  return list;
+}
+
+Eigen::VectorXd support_motion(const FloatingUnknowns& body, const ComplementaritySolution& solution) {
+  Eigen::VectorXd motion = solution.rigid.segment(body.motion, body.row->rigid_motions());
+  motion.tail(motion.size() - 2) /= body.radius;
   return motion;
+}
+
+double planet_angle(const ContactBodies& bodies, const ToothPairs& setup) {
+  const auto& first = setup.pairs.front();
+  const auto& flanks = bodies.face.flanks();
+  return flanks.planet_tooth_angle(first.roll) - first.index * flanks.pair().pinion().pitch_angle();
+}
+
+Eigen::VectorXd applied_forces(const ContactBodies& bodies, const ToothPairs& setup) {
+  return setup.load * bodies.rollers->partner_forces(planet_angle(bodies, setup));
+}
+
+Eigen::VectorXd row_forces(const ContactBodies& bodies, const ToothPairs& setup, const FloatingUnknowns& body,
+                           const ComplementaritySolution& solution) {
+  Eigen::VectorXd forces(body.row->size());
+  forces.head(body.row->unknowns()) = solution.force.segment(body.force, body.row->unknowns());
+  if (body.row != bodies.supports) forces.tail(forces.size() - body.row->unknowns()) = applied_forces(bodies, setup);
+  return forces;
 }
 
 ContactForces port_forces(const ContactBodies& bodies, const ToothPairs& setup, int cycle,
@@ -26,12 +60,48 @@ ContactForces port_forces(const ContactBodies& bodies, const ToothPairs& setup, 
     result.wheel.push_back(
         {wheel_tooth(bodies.face.flanks(), p.index, cycle), bodies.wheel.port_weights(p.wheel) * force});
   }
-  if (bodies.supports != nullptr) {
-    result.supports = solution.force.tail(bodies.supports->size());
-    result.rigid = support_motion(bodies, solution);
+  for (const auto& body : floating_unknowns(bodies, setup.contacts)) {
+    const bool wheel = body.row == bodies.supports;
+    (wheel ? result.supports : result.rollers) = row_forces(bodies, setup, body, solution);
+    (wheel ? result.rigid : result.planet_rigid) = support_motion(body, solution);
   }
   return result;
 }
+
+namespace {
+
+/// What changes with the load where the other mesh of the planet loads it by as much: its displacements are gaps, and its
+/// resultants loads of the rigid motions.
+struct ChangeWithLoad {
+  Eigen::VectorXd force;           ///< N/N
+  double transmission_error = 0;  ///< m/N
+};
+ChangeWithLoad change_with_load(const ToothPairs& setup, const ComplementarityProblem& problem,
+                        const ComplementaritySolution& solution) {
+  std::vector<Eigen::Index> active;
+  for (Eigen::Index i = 0; i < solution.force.size(); ++i)
+    if (solution.active[static_cast<std::size_t>(i)]) active.push_back(i);
+  const auto n = static_cast<Eigen::Index>(active.size()), motions = problem.rigid.cols();
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n + motions, n + motions);
+  Eigen::VectorXd change(n + motions);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) matrix(i, j) = problem.compliance(active[i], active[j]);
+    matrix.row(i).tail(motions) = -problem.rigid.row(active[i]);
+    change[i] = -problem.applied_gap[active[i]] / setup.load;
+  }
+  matrix.bottomLeftCorner(motions, n) = matrix.topRightCorner(n, motions).transpose();
+  change.tail(motions) = -problem.load / setup.load;
+  // Compliances and lever arms differ by ten orders of magnitude.
+  const double scale = problem.compliance.diagonal().cwiseAbs().maxCoeff();
+  matrix.topLeftCorner(n, n) /= scale;
+  change.head(n) /= scale;
+  const Eigen::VectorXd solved = matrix.partialPivLu().solve(change);
+  ChangeWithLoad result{Eigen::VectorXd::Zero(solution.force.size()), scale * solved[n]};
+  for (Eigen::Index i = 0; i < n; ++i) result.force[active[static_cast<std::size_t>(i)]] = solved[i];
+  return result;
+}
+
+}  // namespace
 
 LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup, const ComplementarityProblem& problem,
                         const ComplementaritySolution& solution) {
@@ -40,6 +110,18 @@ LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup, co
   LoadedPosition result;
   result.load = load;
   result.entry.lte = solution.rigid[0];
+  double compliance = solution.tangent(0, 0);
+  const auto floating = floating_unknowns(bodies, setup.contacts);
+  if (bodies.rollers != nullptr) {
+    const auto change = change_with_load(setup, problem, solution);
+    const auto& planet = floating.back();
+    Eigen::VectorXd row_change = row_forces(bodies, setup, planet, solution) / load;  // those applied rise with the load
+    row_change.head(planet.row->unknowns()) = change.force.segment(planet.force, planet.row->unknowns());
+    const auto bearing =
+        bodies.rollers->bearing_motion(load, row_forces(bodies, setup, planet, solution), row_change);
+    result.entry.lte -= bearing.transmission_error;
+    compliance = change.transmission_error - bearing.slope;
+  }
   double unloaded = pairs.front().smallest_gap;
   for (const auto& p : pairs) unloaded = std::min(unloaded, p.smallest_gap);
   result.entry.unloaded_te = unloaded;
@@ -49,7 +131,7 @@ LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup, co
                     "under {:.4g} N",
                     result.entry.lte, unloaded, load));
   result.entry.stiffness_secant = load / (result.entry.lte - unloaded);
-  result.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
+  result.entry.stiffness_tangent = 1 / compliance;
 
   double moment = 0;
   const auto& z = bodies.face.slice_edges();
@@ -79,11 +161,17 @@ LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup, co
   const double torque = load * bodies.face.flanks().pair().pinion().base_radius();
   result.force_balance_relative = std::abs(moment - torque) / torque;
   const double stored = solution.force.dot(problem.compliance * solution.force);
-  const double against_gaps = solution.force.dot(problem.gap), work = load * result.entry.lte;
+  const double against_gaps = solution.force.dot(problem.gap), work = problem.load.dot(solution.rigid);
   // A crooked lead can make the transmission error, and with it the work, nothing or negative; the energy is neither.
   result.energy_balance_relative = std::abs(work - stored - against_gaps) / std::max(std::abs(work), stored);
   result.max_penetration = std::max(0.0, -solution.gap.minCoeff());
-  if (bodies.supports != nullptr) bodies.supports->fill_states(solution.force.tail(bodies.supports->size()), result);
+  for (const auto& body : floating) {
+    const auto forces = row_forces(bodies, setup, body, solution);
+    if (body.row == bodies.supports)
+      body.row->fill_states(forces, result);
+    else
+      result.rollers = body.row->site_forces(forces);
+  }
   return result;
 }
 

@@ -14,10 +14,11 @@ struct ToothForces {
 /// All forces of one position.
 struct ContactForces {
   std::vector<ToothForces> planet, wheel;
-  Eigen::VectorXd supports;  ///< of the support row; empty without
+  Eigen::VectorXd supports;  ///< of the wheel's support row; empty without
   /// Motion of a floating ring beyond its elastic displacement: x, y (m), rotation about z (rad); of a whole solid one
   /// also about x and y. Empty without supports.
   Eigen::VectorXd rigid;
+  Eigen::VectorXd rollers, planet_rigid;  ///< the same of a planet on rollers, forces of its other mesh included
 };
 
 }  // namespace annulus::fem

@@ -14,9 +14,10 @@ namespace annulus::fem {
 
 ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
                              const SupportRow* supports, const MeshMaterials& materials,
-                             std::vector<double> slice_edges, const ContactOptions& options)
+                             std::vector<double> slice_edges, const ContactOptions& options,
+                             const PlanetOnRollers* rollers)
     : face_(flanks, std::move(slice_edges), options.gaps),
-      bodies_{face_, planet, wheel, supports},
+      bodies_{face_, planet, wheel, supports, rollers},
       range_(options.pairs ? *options.pairs : possible_contacts(flanks)),
       materials_(materials),
       window_(options.window),
@@ -82,10 +83,13 @@ std::shared_ptr<const ToothPairs> ContactSystem::setup_for(double window, const 
 }
 
 ComplementarityProblem ContactSystem::assemble(const ToothPairs& setup, int cycle) const {
-  const Eigen::Index contacts = setup.contacts,
-                     support_forces = bodies_.supports != nullptr ? bodies_.supports->size() : 0;
-  const Eigen::Index n = contacts + support_forces,
-                     motions = bodies_.supports != nullptr ? bodies_.supports->rigid_motions() : 0;
+  const Eigen::Index contacts = setup.contacts;
+  const auto floating = floating_unknowns(bodies_, contacts);
+  Eigen::Index n = contacts, motions = 0;
+  for (const auto& body : floating) {
+    n += body.row->unknowns();
+    motions += body.row->rigid_motions();
+  }
   ComplementarityProblem problem;
   problem.compliance = Eigen::MatrixXd::Zero(n, n);
   problem.compliance.topLeftCorner(contacts, contacts) = setup.compliance;
@@ -98,32 +102,49 @@ ComplementarityProblem ContactSystem::assemble(const ToothPairs& setup, int cycl
   for (std::size_t i = 0; i < setup.pairs.size(); ++i)
     for (Eigen::Index e = 0; e < setup.pairs[i].size(); ++e)
       problem.gap[setup.start[i] + e] = setup.pairs[i].elements[e].gap;
-  if (bodies_.supports == nullptr) return problem;
-
-  problem.compliance.bottomRightCorner(support_forces, support_forces) = bodies_.supports->compliance();
-  for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
-    const auto& p = setup.pairs[i];
-    const int tooth = wheel_tooth(face_.flanks(), p.index, cycle);
-    const Eigen::MatrixXd coupling = bodies_.supports->at_ports(tooth, bodies_.wheel.port_weights(p.wheel));
-    problem.compliance.block(setup.start[i], contacts, coupling.rows(), support_forces) = coupling;
-    problem.compliance.block(contacts, setup.start[i], support_forces, coupling.rows()) = coupling.transpose();
-    problem.rigid.block(setup.start[i], 1, coupling.rows(), motions) = -wheel_resultants(p, tooth).leftCols(motions);
-  }
-  problem.rigid.block(contacts, 1, support_forces, motions) = -bodies_.supports->resultants();
-  // Makes rotations displacements.
-  problem.rigid.rightCols(motions - 2) /= face_.flanks().pair().wheel().reference_radius();
-  problem.gap.tail(support_forces) = bodies_.supports->gap();
-  std::copy(bodies_.supports->unilateral().begin(), bodies_.supports->unilateral().end(),
-            problem.unilateral.begin() + contacts);
+  for (const auto& body : floating) add_floating(setup, cycle, body, problem);
   return problem;
 }
 
-Eigen::MatrixXd ContactSystem::wheel_resultants(const ToothPair& pair, int tooth) const {
-  const Eigen::MatrixXd plane = bodies_.wheel.resultants(pair.wheel, tooth);
+void ContactSystem::add_floating(const ToothPairs& setup, int cycle, const FloatingUnknowns& body,
+                                 ComplementarityProblem& problem) const {
+  const SupportRow& row = *body.row;
+  const bool of_wheel = body.row == bodies_.supports;
+  const ContactBody& gear = of_wheel ? bodies_.wheel : bodies_.planet;
+  const Eigen::Index forces = row.unknowns(), motions = row.rigid_motions(), applied = row.size() - forces;
+  const Eigen::VectorXd given = applied > 0 ? applied_forces(bodies_, setup) : Eigen::VectorXd();
+  if (applied > 0) problem.applied_gap = Eigen::VectorXd::Zero(problem.gap.size());
+  problem.compliance.block(body.force, body.force, forces, forces) = row.compliance().topLeftCorner(forces, forces);
+  for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
+    const auto& p = setup.pairs[i];
+    const FlankPatch& patch = of_wheel ? p.wheel : p.planet;
+    const int tooth = of_wheel ? wheel_tooth(face_.flanks(), p.index, cycle) : p.index;
+    const Eigen::MatrixXd coupling = row.at_ports(tooth, gear.port_weights(patch));
+    const Eigen::Index at = setup.start[i], size = coupling.rows();
+    problem.compliance.block(at, body.force, size, forces) = coupling.leftCols(forces);
+    problem.compliance.block(body.force, at, forces, size) = coupling.leftCols(forces).transpose();
+    problem.rigid.block(at, body.motion, size, motions) = -resultants(gear, patch, tooth).leftCols(motions);
+    if (applied > 0) problem.applied_gap.segment(at, size) = coupling.rightCols(applied) * given;
+  }
+  problem.rigid.block(body.force, body.motion, forces, motions) = -row.resultants().topRows(forces);
+  problem.gap.segment(body.force, forces) = row.gap().head(forces);
+  std::copy(row.unilateral().begin(), row.unilateral().begin() + forces, problem.unilateral.begin() + body.force);
+  if (applied > 0) {
+    problem.applied_gap.segment(body.force, forces) = row.compliance().topRightCorner(forces, applied) * given;
+    problem.gap += problem.applied_gap;
+    problem.load.segment(body.motion, motions) = row.resultants().bottomRows(applied).transpose() * given;
+  }
+  // Makes rotations displacements.
+  problem.rigid.middleCols(body.motion + 2, motions - 2) /= body.radius;
+  problem.load.segment(body.motion + 2, motions - 2) /= body.radius;
+}
+
+Eigen::MatrixXd ContactSystem::resultants(const ContactBody& body, const FlankPatch& patch, int tooth) const {
+  const Eigen::MatrixXd plane = body.resultants(patch, tooth);
   Eigen::MatrixXd all(plane.rows(), 5);
   all.leftCols(3) = plane;
   for (Eigen::Index i = 0; i < plane.rows(); ++i) {
-    const int slice = pair.wheel.elements[i].slice;
+    const int slice = patch.elements[i].slice;
     const double z = (face_.slice_edges()[slice] + face_.slice_edges()[slice + 1]) / 2;
     all.row(i).tail<2>() << -z * plane(i, 1), z * plane(i, 0);
   }
@@ -201,6 +222,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
     position.mesh_phase = phase;
     position.ring_tooth = cycle;
     position.reciprocity_relative = setup.asymmetry;
+    position.planet_angle = planet_angle(bodies_, setup);
     position.ring_angle = pitch_point_angle(face_.flanks(), setup.pairs.front().index, setup.pairs.front().roll, cycle);
     if (half_face_) unfold(position, 2 * face_.slice_edges().back());
     return position;

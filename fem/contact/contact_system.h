@@ -33,10 +33,10 @@ struct ContactOptions : PressureElementOptions {
 /// All tooth pairs (and supports) of one gear mesh as one complementarity problem per position.
 class ContactSystem {
  public:
-  /// Everything is referred to; `supports` may be null. `slice_edges` as for the bodies.
+  /// Everything is referred to; `supports` and `rollers` may be null. `slice_edges` as for the bodies.
   ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
                 const SupportRow* supports, const MeshMaterials& materials, std::vector<double> slice_edges,
-                const ContactOptions& options);
+                const ContactOptions& options, const PlanetOnRollers* rollers = nullptr);
   ContactSystem(const ContactSystem&) = delete;
   ContactSystem& operator=(const ContactSystem&) = delete;
 
@@ -65,8 +65,11 @@ class ContactSystem {
   [[nodiscard]] std::shared_ptr<const ToothPairs> setup_for(double window, const PairSlices& added,
                                                             PairsCache& cache) const;
   [[nodiscard]] ComplementarityProblem assemble(const ToothPairs& setup, int cycle) const;
-  /// Resultants on the wheel (x, y, moments about z, x, y) of unit (element, slice) forces of a pair.
-  [[nodiscard]] Eigen::MatrixXd wheel_resultants(const ToothPair& pair, int tooth) const;
+  /// Adds the supports of a floating body, and its motions.
+  void add_floating(const ToothPairs& setup, int cycle, const FloatingUnknowns& body,
+                    ComplementarityProblem& problem) const;
+  /// Resultants on a body (x, y, moments about z, x, y) of unit (element, slice) forces of a pair.
+  [[nodiscard]] Eigen::MatrixXd resultants(const ContactBody& body, const FlankPatch& patch, int tooth) const;
 
   ContactFace face_;
   ContactBodies bodies_;

@@ -20,9 +20,9 @@ class FlankDeflections {
       Eigen::VectorXd force = solution.force.segment(setup.start[i], p.size());
       if ((force.array() != 0).any()) loaded_.push_back({&p, std::move(force)});
     }
-    if (bodies.supports == nullptr) return;
-    support_force_ = solution.force.tail(bodies.supports->size());
-    motion_ = support_motion(bodies, solution);
+    for (const auto& body : floating_unknowns(bodies, setup.contacts))
+      (body.row == bodies.supports ? wheel_ : planet_) = {body.row, row_forces(bodies, setup, body, solution),
+                                                          support_motion(body, solution)};
   }
 
   /// Largest approach of the two flanks along their height, m, in every slice.
@@ -36,6 +36,7 @@ class FlankDeflections {
                                                       loaded_.front().force);
     for (std::size_t i = 1; i < loaded_.size(); ++i)
       sum += bodies_.planet.displacement(pair, loaded_[i].pair->planet, loaded_[i].pair->index, loaded_[i].force);
+    if (planet_.row != nullptr) add_floating(planet_, bodies_.planet, pair, sum);
     return sum;
   }
 
@@ -52,19 +53,26 @@ class FlankDeflections {
       else
         sum += part;
     }
-    if (bodies_.supports == nullptr) return sum;
-    const int tooth = wheel_tooth(flanks, pair, cycle_);
-    sum += bodies_.wheel.slice_means(bodies_.supports->at_flank(tooth, support_force_));
-    const Eigen::MatrixXd plane = bodies_.wheel.motions(tooth);
-    sum += plane * motion_.head<3>();
-    if (motion_.size() <= 3) return sum;
+    if (wheel_.row != nullptr) add_floating(wheel_, bodies_.wheel, wheel_tooth(flanks, pair, cycle_), sum);
+    return sum;
+  }
+
+  /// A body that floats: its supports, and how it moves as a whole.
+  struct Floating {
+    const SupportRow* row = nullptr;
+    Eigen::VectorXd force, motion;
+  };
+  void add_floating(const Floating& floating, const ContactBody& body, int tooth, Eigen::VectorXd& sum) const {
+    sum += body.slice_means(floating.row->at_flank(tooth, floating.force));
+    const Eigen::MatrixXd plane = body.motions(tooth);
+    sum += plane * floating.motion.head<3>();
+    if (floating.motion.size() <= 3) return;
     const auto& z = bodies_.face.slice_edges();
     for (Eigen::Index i = 0; i < sum.size(); ++i) {
       const auto slice = static_cast<std::size_t>(i) % (z.size() - 1);
       const double middle = (z[slice] + z[slice + 1]) / 2;
-      sum[i] += middle * (plane(i, 0) * motion_[4] - plane(i, 1) * motion_[3]);
+      sum[i] += middle * (plane(i, 0) * floating.motion[4] - plane(i, 1) * floating.motion[3]);
     }
-    return sum;
   }
 
   /// Least over the height of a flank, slice by slice.
@@ -81,7 +89,7 @@ class FlankDeflections {
   int cycle_;
   double approach_;  // m, by the transmission error, along the normal
   std::vector<Loaded> loaded_;
-  Eigen::VectorXd support_force_, motion_;
+  Floating planet_, wheel_;
 };
 
 }  // namespace

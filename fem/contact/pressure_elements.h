@@ -9,13 +9,15 @@
 
 namespace annulus::fem {
 
+class PlanetOnRollers;
 class SupportRow;
 
-/// Both bodies in contact over a face; `supports` may be null. Everything is referred to.
+/// Both bodies in contact over a face. Everything is referred to.
 struct ContactBodies {
   const ContactFace& face;
   const ContactBody &planet, &wheel;
-  const SupportRow* supports = nullptr;
+  const SupportRow* supports = nullptr;      ///< of a wheel that floats
+  const PlanetOnRollers* rollers = nullptr;  ///< of a planet that stands on them
 };
 
 struct PressureElementOptions {

@@ -9,7 +9,7 @@
 namespace annulus::fem {
 
 SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, bool half_face, double turn)
-    : sites_(std::move(sites)), slice_edges_(std::move(slice_edges)), half_face_(half_face), turn_(turn) {
+    : sites_(std::move(sites)), slice_edges_(std::move(slice_edges)), half_face_(half_face), turn_(turn), teeth_(teeth) {
   const double pitch = 2 * M_PI / teeth;
   const int slices = static_cast<int>(slice_edges_.size()) - 1;
   constexpr double same = 1e-10;  // rad: round-off of angles of a few turns
@@ -31,7 +31,7 @@ SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slic
     for (int direction = 0; direction < static_cast<int>(s.directions.size()); ++direction) {
       const auto& d = s.directions[direction];
       for (int slice = 0; slice < slices; ++slice) {
-        Force force{site, direction, slice, {}};
+        Force force{Kind::support, site, direction, slice, {}};
         for (int sector = sector_of(s.angle - inside); sector <= sector_of(s.angle + inside); ++sector) {
           ArcLoad arc;
           arc.centre = s.angle - sector * pitch;
@@ -46,6 +46,28 @@ SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slic
       }
     }
   }
+  if (!sites_.against_turning) return;
+  Force torque{Kind::torque, 0, 0, 0, {}};
+  torque.weight = 1.0 / (teeth * slices);
+  for (int slice = 0; slice < slices; ++slice) {
+    ArcLoad arc;
+    arc.half_arc = pitch / 2;
+    arc.direction = turn + M_PI / 2;
+    arc.parabolic = false;
+    arc.z_low = slice_edges_[slice];
+    arc.z_high = slice_edges_[slice + 1];
+    const int number = arc_number(arc);
+    for (int sector = 0; sector < teeth; ++sector) torque.pieces.emplace_back(sector, number);
+  }
+  forces_.push_back(std::move(torque));
+}
+
+void SupportPlan::apply_on_other_flank(int places) {
+  require(applied_ == 0, "forces on the other flank are applied once");
+  for (int tooth = 0; tooth < teeth_; ++tooth)
+    for (int place = 0; place < places; ++place)
+      forces_.push_back({Kind::applied, 0, 0, 0, {{tooth, static_cast<int>(arcs_.size()) + place}}});
+  applied_ = teeth_ * places;
 }
 
 Eigen::MatrixXd SupportPlan::own_compliance() const {
@@ -55,6 +77,7 @@ Eigen::MatrixXd SupportPlan::own_compliance() const {
   Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto& force = forces_[i];
+    if (force.kind != Kind::support) continue;
     const auto& own = direction(force);
     const auto middle = [&](Eigen::Index slice) {
       return ((edges[slice] + edges[slice + 1]) / 2 - edges.front()) / width;
@@ -82,31 +105,34 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
   const double width = edges.back() - edges.front();
   require(solid || edges.size() == 2, "a plane body has one slice");
   if (!solid) per_width_ = 1 / width;
-  const int n = size(), arcs = static_cast<int>(plan_.arcs().size());
+  const int n = size();
   resultants_ = Eigen::MatrixXd::Zero(n, tilts ? 5 : 3);
   gap_.resize(n);
   for (int i = 0; i < n; ++i) {
     const auto& force = plan_.forces()[i];
     Wrench wrench = Wrench::Zero();
     for (const auto& [sector, arc] : force.pieces) {
-      wrench += ring.arc_wrench(arc, sector);
-      on_sector_[sector].force.push_back(i);
-      on_sector_[sector].arc.push_back(arc);
+      wrench += force.weight * ring.acting_wrench(arc, sector);
+      auto& here = on_sector_[sector];
+      here.force.push_back(i);
+      here.arc.push_back(arc);
+      here.weight.push_back(force.weight);
     }
-    require(std::abs(wrench.head<3>().norm() - 1) < 1e-9, "a support is not wholly on the rim");
+    const bool support = force.kind == SupportPlan::Kind::support;
+    require(!support || std::abs(wrench.head<3>().norm() - 1) < 1e-9, "a support is not wholly on the rim");
     resultants_.row(i).head<3>() << wrench[0], wrench[1], wrench[5];
     if (tilts) resultants_.row(i).tail<2>() << wrench[3], wrench[4];
-    gap_[i] = plan_.direction(force).clearance;
-    unilateral_.push_back(plan_.direction(force).unilateral);
+    gap_[i] = support ? plan_.direction(force).clearance : 0.0;
+    unilateral_.push_back(support && plan_.direction(force).unilateral);
   }
 
   compliance_ = Eigen::MatrixXd::Zero(n, n);
   for (int sector = 0; sector < ring.teeth; ++sector) {
     const auto& here = on_sector_[sector];
     if (here.force.empty()) continue;
-    const Eigen::MatrixXd arc_displacement = at_loads(sector, ring.first_arc(), arcs);
+    const Eigen::MatrixXd displacement = at_loads(sector, ring.first_acting(), ring.acting_loads());
     for (std::size_t i = 0; i < here.force.size(); ++i)
-      compliance_.row(here.force[i]) += arc_displacement.row(here.arc[i]);
+      compliance_.row(here.force[i]) += here.weight[i] * displacement.row(here.arc[i]);
   }
   compliance_ = (0.5 * (compliance_ + compliance_.transpose())).eval();
   compliance_ += plan_.own_compliance();
@@ -124,8 +150,8 @@ const Eigen::MatrixXd& SupportRow::at_interface(int interface) const {
       if (count == 0) continue;
       Eigen::MatrixXd low(c.interface_size(), count), high(c.interface_size(), count);
       for (Eigen::Index i = 0; i < count; ++i) {
-        low.col(i) = c.low().col(ring_.first_arc() + here.arc[i]);
-        high.col(i) = c.high().col(ring_.first_arc() + here.arc[i]);
+        low.col(i) = here.weight[i] * c.low().col(ring_.first_acting() + here.arc[i]);
+        high.col(i) = here.weight[i] * c.high().col(ring_.first_acting() + here.arc[i]);
       }
       Eigen::MatrixXd displacement = Eigen::MatrixXd::Zero(c.interface_size(), count);
       c.add_interface_displacement(number - sector, low, displacement);
@@ -144,7 +170,7 @@ Eigen::MatrixXd SupportRow::at_loads(int sector, int first, int count) const {
       lapack::transpose_product(Eigen::MatrixXd(c.high().middleCols(first, count)), at_interface(sector + 1));
   const auto& here = on_sector_[tooth_number(sector)];
   for (std::size_t i = 0; i < here.force.size(); ++i)
-    result.col(here.force[i]) += per_width_ * c.within().col(ring_.first_arc() + here.arc[i]).segment(first, count);
+    result.col(here.force[i]) += per_width_ * here.weight[i] * c.within().col(ring_.first_acting() + here.arc[i]).segment(first, count);
   return result;
 }
 
@@ -152,8 +178,8 @@ Eigen::VectorXd SupportRow::within_sector(int sector, int first, int count, cons
   Eigen::VectorXd result = Eigen::VectorXd::Zero(count);
   const auto& here = on_sector_[tooth_number(sector)];
   for (std::size_t i = 0; i < here.force.size(); ++i)
-    result += per_width_ * forces[here.force[i]] *
-              ring_.compliance.within().col(ring_.first_arc() + here.arc[i]).segment(first, count);
+    result += per_width_ * here.weight[i] * forces[here.force[i]] *
+              ring_.compliance.within().col(ring_.first_acting() + here.arc[i]).segment(first, count);
   return result;
 }
 
@@ -167,7 +193,8 @@ Eigen::MatrixXd SupportRow::at_ports(int tooth, const Eigen::MatrixXd& port_weig
   const auto& here = on_sector_[tooth_number(tooth)];
   for (std::size_t i = 0; i < here.force.size(); ++i)
     result.col(here.force[i]) +=
-        per_width_ * port_weights.transpose() * c.within().col(ring_.first_arc() + here.arc[i]).head(ports);
+        per_width_ * here.weight[i] * port_weights.transpose() *
+        c.within().col(ring_.first_acting() + here.arc[i]).head(ports);
   return result;
 }
 
@@ -179,11 +206,21 @@ Eigen::VectorXd SupportRow::at_flank(int tooth, const Eigen::VectorXd& forces) c
          within_sector(tooth, 0, ports, forces);
 }
 
+std::vector<double> SupportRow::site_forces(const Eigen::VectorXd& forces) const {
+  std::vector<double> result(plan_.sites().sites.size(), 0.0);
+  for (int i = 0; i < unknowns(); ++i) {
+    const auto& force = plan_.forces()[i];
+    if (force.kind == SupportPlan::Kind::support && force.direction == 0) result[force.site] += forces[i];
+  }
+  return result;
+}
+
 void SupportRow::fill_states(const Eigen::VectorXd& forces, LoadedPosition& position) const {
   const auto& sites = plan_.sites();
   std::vector<PinState> states(sites.sites.size());
   for (int i = 0; i < size(); ++i) {
     const auto& force = plan_.forces()[i];
+    if (force.kind != SupportPlan::Kind::support) continue;
     const auto& direction = plan_.direction(force);
     auto& state = states[force.site];
     // A support feels the opposite of what it does to the rim; in the mirrored frame of the solve tangential forces

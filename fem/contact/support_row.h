@@ -20,18 +20,24 @@ class SupportPlan {
   /// they are the lower half of a symmetric face (see SolvedFace). `turn`: rad, of helical teeth in the middle of the
   /// face against z = 0 (BodyPlan::turn); sites are at angles from there.
   SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, bool half_face = false, double turn = 0);
+  /// Adds forces that are given instead of sought: on every tooth at so many places of its other flank, in that order.
+  void apply_on_other_flank(int places);
 
+  enum class Kind { support, torque, applied };
   struct Force {
-    int site = 0, direction = 0, slice = 0;
-    std::vector<std::pair<int, int>> pieces;  ///< sector, arc
+    Kind kind = Kind::support;
+    int site = 0, direction = 0, slice = 0;   ///< of a support
+    std::vector<std::pair<int, int>> pieces;  ///< sector, acting load of GearBody
+    double weight = 1;                        ///< of each piece
   };
   [[nodiscard]] const SupportSites& sites() const { return sites_; }
   [[nodiscard]] const std::vector<double>& slice_edges() const { return slice_edges_; }
   [[nodiscard]] bool half_face() const { return half_face_; }
   /// Neither moves along the axis nor tilts: an end face of a helical ring bears its axial force.
   [[nodiscard]] bool held_axially() const { return turn_ != 0; }
-  /// [site][direction][slice]
+  /// [site][direction][slice], the torque, applied forces
   [[nodiscard]] const std::vector<Force>& forces() const { return forces_; }
+  [[nodiscard]] int applied() const { return applied_; }  ///< number of applied forces: the last ones
   [[nodiscard]] const std::vector<ArcLoad>& arcs() const { return arcs_; }
   [[nodiscard]] const SupportDirection& direction(const Force& force) const {
     return sites_.sites[force.site].directions[force.direction];
@@ -46,15 +52,17 @@ class SupportPlan {
   double turn_;
   std::vector<Force> forces_;
   std::vector<ArcLoad> arcs_;
+  int teeth_ = 0, applied_ = 0;
 };
 
-/// The supports around a floating ring as unknown forces of the contact problem.
+/// The supports around a floating body, a ring or a planet on rollers, as unknown forces of the contact problem.
 class SupportRow {
  public:
-  /// `ring` has the plan's arcs as its arc loads; it is referred to.
+  /// `ring` has the plan's arcs as its first acting loads; it is referred to.
   SupportRow(SupportPlan plan, const GearBody& ring);
 
   [[nodiscard]] int size() const { return static_cast<int>(plan_.forces().size()); }  ///< number of forces
+  [[nodiscard]] int unknowns() const { return size() - plan_.applied(); }  ///< those that are sought: the first ones
   [[nodiscard]] const SupportPlan& plan() const { return plan_; }
   /// Rigid motions of the ring: x, y, rotation about z; of a whole solid one also about x and y, unless the plan holds
   /// it axially. Else axial motion is not resisted, and not loaded.
@@ -79,13 +87,16 @@ class SupportRow {
   /// The part of such work that passes inside the sector, its interfaces held, under given support forces: count.
   [[nodiscard]] Eigen::VectorXd within_sector(int sector, int first, int count, const Eigen::VectorXd& forces) const;
 
+  /// Force of every site, N: all its slices, in its first direction.
+  [[nodiscard]] std::vector<double> site_forces(const Eigen::VectorXd& forces) const;
   /// What forces mean for pins (or spline teeth), and for the patches of a housing bore.
   void fill_states(const Eigen::VectorXd& forces, LoadedPosition& position) const;
 
  private:
-  /// Support forces that act on one sector through one of its arcs.
+  /// Forces of the row that act on one sector, each through one of its acting loads.
   struct OnSector {
     std::vector<int> force, arc;
+    std::vector<double> weight;
   };
   [[nodiscard]] int tooth_number(int tooth) const { return ((tooth % ring_.teeth) + ring_.teeth) % ring_.teeth; }
 

@@ -223,10 +223,14 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   add_free_stiffness(problem, held, on_boundaries(problem, sliding), model);
   add_cyclic_interfaces(problem, held, support_radius, model);
 
-  model.flank = make_trace(problem.boundary_nodes(options.flank), model.nodes, options.degree,
-                           [&](const Eigen::Vector3d& p) { return profile.roll_length_at(std::hypot(p.x(), p.y())); });
+  const auto trace_of_flank = [&](geometry::Boundary flank) {
+    return make_trace(problem.boundary_nodes(flank), model.nodes, options.degree,
+                      [&](const Eigen::Vector3d& p) { return profile.roll_length_at(std::hypot(p.x(), p.y())); });
+  };
+  model.flank = trace_of_flank(options.flank);
   const double twist = dim == 3 ? profile.twist() : 0;
   const auto asked = [&](SectorOutput output) { return options.outputs.count(output) > 0; };
+  if (asked(SectorOutput::other_flank)) model.other_flank = trace_of_flank(geometry::opposite_flank(options.flank));
   if (asked(SectorOutput::outside))
     model.outside = make_trace(problem.boundary_nodes(geometry::Boundary::support), model.nodes, options.degree,
                                outside_angle(twist, options.straight_z));

@@ -53,6 +53,7 @@ struct SectorModel {
   std::vector<int> dof;                    ///< [node * dimension + component] -> row of `stiffness`, or -1 when held
   std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two cyclic interfaces, wholly held nodes left out
   TraceGrid flank;                         ///< of the contact flank
+  TraceGrid other_flank;                   ///< opposite to the contact flank, on the same tooth
   TraceGrid outside;                       ///< of the support circle where it is free
   StressSurface root_low, root_high;       ///< root land and fillet of the trailing (y < 0) and of the leading side
   StressSurface rim;                       ///< of the support circle (empty when held)
@@ -62,7 +63,8 @@ struct SectorModel {
 
 /// Members of a SectorModel that are filled on demand.
 enum class SectorOutput {
-  outside,  ///< outside
+  outside,      ///< outside
+  other_flank,  ///< other_flank
   stress,   ///< root_low, root_high, and rim where the support circle is free
   mass,     ///< nodal_mass
   field     ///< field

@@ -24,7 +24,7 @@ StressCurve make_curve(const char* name, std::size_t position, const StressRecov
     curve.von_mises.push_back(line.von_mises(static_cast<Eigen::Index>(i), station));
   }
   if (!mirrored) return curve;
-  const bool along_arc = curve.name != "wheel rim";
+  const bool along_arc = curve.name != "wheel rim" && curve.name != "planet rim";
   const double length = curve.abscissa.back();
   for (auto& a : curve.abscissa) a = along_arc ? length - a : -a;
   for (auto* values : {&curve.abscissa, &curve.tangential, &curve.von_mises})
@@ -63,11 +63,12 @@ std::vector<StressCurve> worst_curves(const LoadedMeshProblem& problem, const Me
     const auto forces = forces_at(system, positions[worst]);
     const auto all = body == &LoadedPosition::wheel_stress
                          ? bodies.wheel_stress->stresses(forces.wheel, forces.supports)
-                         : bodies.planet_stress->stresses(forces.planet, {});
+                         : bodies.planet_stress->stresses(forces.planet, forces.rollers);
     result.push_back(make_curve(name, worst, all.*line, problem.pair.internal()));
   };
   using Result = StressRecovery::Result;
   add("planet root", &BodyStress::root_von_mises, &LoadedPosition::planet_stress, &Result::root);
+  add("planet rim", &BodyStress::rim_von_mises, &LoadedPosition::planet_stress, &Result::rim);
   add("wheel root", &BodyStress::root_von_mises, &LoadedPosition::wheel_stress, &Result::root);
   add("wheel rim", &BodyStress::rim_von_mises, &LoadedPosition::wheel_stress, &Result::rim);
   return result;
@@ -81,14 +82,17 @@ std::vector<BodyField> worst_fields(const LoadedMeshProblem& problem, const Mesh
   const auto forces = forces_at(system, positions[worst]);
   std::vector<BodyField> fields;
   const auto add = [&](const char* name, const BodySource& source, const CondensedBody& body, const Material& material,
-                       const std::vector<ToothForces>& teeth, const SupportRow* supports) {
+                       const std::vector<ToothForces>& teeth, const SupportRow* supports,
+                       const Eigen::VectorXd& held, const Eigen::VectorXd& rigid) {
     const FieldRecovery recovery(body.body(), source, material, problem.face_width, supports);
-    fields.push_back(recovery.field(teeth, forces, problem.pair.internal()));
+    fields.push_back(recovery.field(teeth, held, rigid, problem.pair.internal()));
     fields.back().body = name;
     fields.back().position = worst;
   };
-  add("planet", bodies.planet_source, *bodies.planet, problem.materials.planet, forces.planet, nullptr);
-  add("wheel", bodies.wheel_source, *bodies.wheel, problem.materials.wheel, forces.wheel, bodies.supports.get());
+  add("planet", bodies.planet_source, *bodies.planet, problem.materials.planet, forces.planet,
+      bodies.rollers ? &bodies.rollers->row() : nullptr, forces.rollers, forces.planet_rigid);
+  add("wheel", bodies.wheel_source, *bodies.wheel, problem.materials.wheel, forces.wheel, bodies.supports.get(), forces.supports,
+      forces.rigid);
   return fields;
 }
 
@@ -124,7 +128,7 @@ double contact_error(const LoadedMeshProblem& problem, const FlankContact& flank
   constexpr int places = 4;
   options.elements *= 2;
   const ContactSystem finer(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.materials,
-                            bodies.slice_edges, options);
+                            bodies.slice_edges, options, bodies.rollers.get());
   const std::size_t loads = problem.loads.size();
   double largest = 0;
   for (int i = 0; i < std::min(places, problem.phases); ++i) {
@@ -150,7 +154,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   options.gaps = {problem.misalignment, problem.planet_overhang.below, problem.wheel_overhang.below};
   options.half_face = bodies.face.half;
   const ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.materials,
-                             bodies.slice_edges, options);
+                             bodies.slice_edges, options, bodies.rollers.get());
   const auto solve = [&](int cycle, int phase, int load, ContactSystem::PairsCache& cache,
                          ContactSystem::WarmStart& warm) {
     ContactForces forces;
@@ -159,7 +163,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
     using Look = StressRecovery::Look;
     const bool middle = load == static_cast<int>(problem.loads.size() / 2);
     const auto look = middle ? Look::around : Look::near;
-    position.planet_stress = bodies.planet_stress->stresses(forces.planet, {}, look).largest;
+    position.planet_stress = bodies.planet_stress->stresses(forces.planet, forces.rollers, look).largest;
     position.wheel_stress = bodies.wheel_stress->stresses(forces.wheel, forces.supports, look).largest;
     if (middle)
       for (const auto& gauge : bodies.gauges)

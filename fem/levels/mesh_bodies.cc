@@ -137,7 +137,9 @@ StrainGauge in_solve(StrainGauge gauge, const LoadedMeshProblem& problem, const 
   return gauge;
 }
 
-BodySource source_of(const Task& task) { return {task.mesh, task.profile, task.support_radius, task.options.sector}; }
+BodySource source_of(const Task& task) {
+  return {task.mesh, task.profile, task.support_radius, task.options.sector, task.options.other_flank};
+}
 
 }  // namespace
 
@@ -159,7 +161,12 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     supports.emplace(support_sites(problem), pair.wheel().teeth(),
                      wheel_plan.support_edges(support_slices(problem, counts.face_cells)), face.half,
                      wheel_plan.turn());
-  GearTasks planet = maker.make(planet_plan, {}), wheel = maker.make(wheel_plan, supports);
+  std::optional<SupportPlan> bed;
+  if (planet_plan.floating())
+    bed = PlanetOnRollers::bed(*problem.planet_rollers, pair.pinion().teeth(),
+                               planet_plan.support_edges(support_slices(problem, counts.face_cells)), face.half);
+  GearTasks planet = maker.make(planet_plan, bed), wheel = maker.make(wheel_plan, supports);
+  if (bed) planet.body.options.other_flank = {PlanetOnRollers::places, 0, face.half ? face.width / 2 : face.width};
   std::vector<StrainGauge> gauges;
   for (const auto& gauge : problem.gauges) {
     gauges.push_back(in_solve(gauge, problem, wheel_plan));
@@ -199,8 +206,12 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   bodies.planet = condensed(planet, pair.pinion().base_radius(), of_planet);
   bodies.wheel = condensed(wheel, pair.wheel().base_radius(), of_wheel);
   if (supports) bodies.supports = std::make_unique<SupportRow>(std::move(*supports), bodies.wheel->body());
+  if (bed)
+    bodies.rollers =
+        std::make_unique<PlanetOnRollers>(*problem.planet_rollers, std::move(*bed), bodies.planet->body());
   bodies.planet_stress = std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width,
-                                                          of_planet.poisson_ratio, nullptr, bodies.planet_notch);
+                                                          of_planet.poisson_ratio,
+                                                          bed ? &bodies.rollers->row() : nullptr, bodies.planet_notch);
   bodies.wheel_stress = std::make_unique<StressRecovery>(
       bodies.wheel->body(), problem.face_width, of_wheel.poisson_ratio, bodies.supports.get(), bodies.wheel_notch);
   std::size_t in_section = 0;

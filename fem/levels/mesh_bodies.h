@@ -7,6 +7,7 @@
 #include "fem/body/resolution.h"
 #include "fem/contact/contact_body.h"
 #include "fem/contact/flank_contact.h"
+#include "fem/contact/planet_on_rollers.h"
 #include "fem/contact/support_row.h"
 #include "fem/problem/loaded_mesh_problem.h"
 #include "fem/problem/loaded_mesh_result.h"
@@ -19,7 +20,8 @@ namespace annulus::fem {
 /// The two condensed bodies of a loaded mesh at one level of resolution, ready for contact, and what they took.
 struct MeshBodies : SolveCost {
   std::unique_ptr<CondensedBody> planet, wheel;
-  std::unique_ptr<SupportRow> supports;  ///< of a floating ring
+  std::unique_ptr<SupportRow> supports;      ///< of a floating ring
+  std::unique_ptr<PlanetOnRollers> rollers;  ///< of a planet on rollers
   std::unique_ptr<StressRecovery> planet_stress, wheel_stress;
   std::vector<GaugeRecovery> gauges;  ///< on the wheel, as in the problem
   NotchFactors planet_notch, wheel_notch;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fem/problem/material.h"
+#include "fem/problem/planet_rollers.h"
 #include "fem/problem/ring_structure.h"
 #include "fem/problem/strain_gauge.h"
 #include "geometry/gear_pair.h"
@@ -22,7 +23,7 @@ struct LoadedMeshProblem {
   geometry::GearPair pair;
   MeshMaterials materials{};
   double face_width = 0;            ///< m, of the common face, on which the flanks touch
-  double planet_bore_radius = 0;    ///< m, rigid hub
+  double planet_bore_radius = 0;    ///< m, rigid hub, or the raceway of rollers
   double wheel_support_radius = 0;  ///< m: bore of the sun (rigid hub) or outside radius of the ring
   RingStructure structure{};        ///< ring mesh only; the outside held unless set
   double misalignment = 0;          ///< m over the face width, normal to the flanks, > 0 opens towards +z
@@ -31,6 +32,7 @@ struct LoadedMeshProblem {
   int phases = 16;                                         ///< positions per mesh cycle
   std::string name = "mesh";                               ///< of the mesh in its stiffness table
   std::vector<StrainGauge> gauges{};                       ///< on the wheel; of condensed models with elements
+  std::optional<PlanetRollers> planet_rollers{};           ///< of condensed models with elements, spur teeth
 };
 
 /// Estimated relative error of a stiffness in plane strain for a face of finite width: towards its ends the material is

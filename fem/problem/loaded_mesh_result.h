@@ -61,6 +61,10 @@ struct LoadedPosition {
   bool tip_edge_contact = false;  ///< the peak pressure stands at a tip edge: singular, not to be compared
   std::vector<PinState> pins;
   std::vector<PinState> housing;        ///< patches of the housing bore, one behind every tooth; empty without
+  /// Of a planet on rollers: force of the bed behind every tooth, N, and the angle of tooth 0 against the direction from
+  /// the axis of the stage to the planet, rad, in the frame of the solve.
+  std::vector<double> rollers;
+  double planet_angle = 0;
   std::vector<double> line_load;        ///< N/m, of all pairs together, per slice of the face width from low to high z
   double face_load_factor = 1;          ///< K_H_beta (ISO 6336-1): largest over mean line load
   std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only
@@ -76,7 +80,7 @@ struct LoadedPosition {
 
 /// Surface stress along a line, for pictures.
 struct StressCurve {
-  std::string name;              ///< "planet root", "wheel root", "wheel rim"
+  std::string name;              ///< "planet root", "planet rim" (of a planet on rollers), "wheel root", "wheel rim"
   std::size_t position = 0;      ///< index into LoadedMeshResult::positions: where its largest von Mises stress occurs
   std::vector<double> abscissa;  ///< root: arc length counter-clockwise through the tooth space, from form circle to
                                  ///< form circle, m; rim: polar angle in the wheel's own frame, rad

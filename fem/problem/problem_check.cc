@@ -30,6 +30,29 @@ void check_gauges(const LoadedMeshProblem& problem, Fidelity fidelity) {
   }
 }
 
+void check_rollers(const LoadedMeshProblem& problem, Fidelity fidelity) {
+  if (!problem.planet_rollers) return;
+  const auto& rollers = *problem.planet_rollers;
+  if (is_resolved(fidelity) || fidelity == Fidelity::closed_form)
+    throw InputError(
+        fmt::format("a planet on rollers needs a whole body of finite elements: use model = \"plane\" or \"solid\", "
+                    "not \"{}\"",
+                    fidelity_name(fidelity)));
+  if (problem.pair.pinion().helix_angle() != 0)
+    throw InputError(fmt::format("a planet on rollers needs spur teeth, not helical ones of {:.4g} degrees",
+                                 problem.pair.pinion().helix_angle() * 180 / M_PI));
+  if (!(rollers.stiffness > 0) || !std::isfinite(rollers.stiffness) || !(rollers.play >= 0))
+    throw InputError(fmt::format("rollers of {:.4g} N/m with {:.4g} m of play: the stiffness has to be positive and "
+                                 "finite, the play not negative",
+                                 rollers.stiffness, rollers.play));
+  if (rollers.partner.pinion().teeth() != problem.pair.pinion().teeth() ||
+      rollers.partner.internal() == problem.pair.internal())
+    throw InputError(
+        fmt::format("the other mesh of a planet with {} teeth on rollers has a planet with {} teeth, and has to be {}",
+                    problem.pair.pinion().teeth(), rollers.partner.pinion().teeth(),
+                    problem.pair.internal() ? "external" : "internal"));
+}
+
 }  // namespace
 
 void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
@@ -46,6 +69,7 @@ void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
     throw InputError(fmt::format("a ring structure ({}) belongs to the ring mesh, and the pair is external",
                                  problem.structure.words().description));
   check_gauges(problem, fidelity);
+  check_rollers(problem, fidelity);
   // Meshes of the resolved model are made for contacts of flanks without them.
   if (fidelity == Fidelity::closed_form || is_resolved(fidelity))
     for (const auto* gear : {&problem.pair.pinion(), &problem.pair.wheel()})

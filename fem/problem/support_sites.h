@@ -30,6 +30,8 @@ struct SupportSite {
 struct SupportSites {
   std::vector<SupportSite> sites;
   int pins = 0;  ///< number of pins or spline teeth: the first sites
+  /// A torque, spread evenly over the whole surface, holds it against turning in the mean and gives way nowhere else.
+  bool against_turning = false;
 };
 
 /// What the supports touch.

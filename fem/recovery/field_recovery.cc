@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/errors.h"
 #include "fem/condensation/lapack.h"
@@ -40,7 +41,9 @@ FieldRecovery::FieldRecovery(const GearBody& body, const BodySource& source, con
       interior_(std::make_unique<Interior>()) {
   if (supports != nullptr) {
     require(!model_.outside.nodes.empty(), "supports on a body without an outside");
-    for (const auto& arc : supports->plan().arcs()) arcs_.push_back(on_outside(arc, model_.outside));
+    for (const auto& arc : supports->plan().arcs()) acting_.push_back(on_outside(arc, model_.outside));
+    for (auto& load : other_flank_loads(model_, *source.profile, source.options.flank, source.other_flank))
+      acting_.push_back(std::move(load));
   }
   auto& in = *interior_;
   const auto rows_of = [&](const std::vector<int>& nodes) {
@@ -121,7 +124,8 @@ Eigen::VectorXd FieldRecovery::sector_displacement(int sector, const std::vector
     for (std::size_t i = 0; i < all.size(); ++i)
       for (const auto& [where, arc] : all[i].pieces)
         if (where == number(sector, body_.teeth))
-          for (const auto& load : arcs_[arc]) add_force(load.node, supports[static_cast<Eigen::Index>(i)] * load.force);
+          for (const auto& load : acting_[arc])
+            add_force(load.node, all[i].weight * supports[static_cast<Eigen::Index>(i)] * load.force);
   }
   f -= model_.stiffness * u;
   Eigen::VectorXd inner(in.size);
@@ -137,8 +141,8 @@ Eigen::VectorXd FieldRecovery::sector_displacement(int sector, const std::vector
   return all;
 }
 
-BodyField FieldRecovery::field(const std::vector<ToothForces>& teeth, const ContactForces& forces,
-                               bool mirrored) const {
+BodyField FieldRecovery::field(const std::vector<ToothForces>& teeth, const Eigen::VectorXd& supports,
+                               const Eigen::VectorXd& rigid, bool mirrored) const {
   const int dim = model_.dimension, stresses = dim == 3 ? 6 : 4;
   const auto& grid = model_.field;
   const auto [low, high] =
@@ -156,7 +160,7 @@ BodyField FieldRecovery::field(const std::vector<ToothForces>& teeth, const Cont
   result.mesh.dimension = dim;
   result.sectors = last - first + 1;
   for (int sector = first; sector <= last; ++sector) {
-    const Eigen::VectorXd u = sector_displacement(sector, teeth, forces.supports);
+    const Eigen::VectorXd u = sector_displacement(sector, teeth, supports);
     const Eigen::VectorXd stress = grid.stress * u;
     const Eigen::Matrix3d turn =
         Eigen::AngleAxisd(sector * model_.pitch_angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -168,9 +172,9 @@ BodyField FieldRecovery::field(const std::vector<ToothForces>& teeth, const Cont
       own.head(dim) = u.segment(node * dim, dim);
       Eigen::Vector3d moved = turn * own;
       if (supports_ != nullptr) {
-        Eigen::Vector3d rotation(0, 0, forces.rigid[2]);
-        if (forces.rigid.size() == 5) rotation.head<2>() = forces.rigid.tail<2>();
-        moved += Eigen::Vector3d(forces.rigid[0], forces.rigid[1], 0) + rotation.cross(place);
+        Eigen::Vector3d rotation(0, 0, rigid[2]);
+        if (rigid.size() == 5) rotation.head<2>() = rigid.tail<2>();
+        moved += Eigen::Vector3d(rigid[0], rigid[1], 0) + rotation.cross(place);
       }
       const auto s = stress.segment(static_cast<Eigen::Index>(v) * stresses, stresses);
       Eigen::Matrix3d tensor;

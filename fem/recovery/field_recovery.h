@@ -23,10 +23,10 @@ class FieldRecovery {
   FieldRecovery(const FieldRecovery&) = delete;
   FieldRecovery& operator=(const FieldRecovery&) = delete;
 
-  /// Under `teeth`, the supports' forces and the rigid motion of `forces`: as BodyField::mesh says. `mirrored`: the
-  /// real body is the mirror image of the solved one (y -> -y).
-  [[nodiscard]] BodyField field(const std::vector<ToothForces>& teeth, const ContactForces& forces,
-                                bool mirrored) const;
+  /// Under `teeth` and the supports' forces, and moved by `rigid` (both empty without supports): as BodyField::mesh
+  /// says. `mirrored`: the real body is the mirror image of the solved one (y -> -y).
+  [[nodiscard]] BodyField field(const std::vector<ToothForces>& teeth, const Eigen::VectorXd& supports,
+                                const Eigen::VectorXd& rigid, bool mirrored) const;
   /// Displacements of all DOFs of one sector in its own frame, [node][component], without the rigid motion.
   [[nodiscard]] Eigen::VectorXd sector_displacement(int sector, const std::vector<ToothForces>& teeth,
                                                     const Eigen::VectorXd& supports) const;
@@ -42,7 +42,7 @@ class FieldRecovery {
   const SupportRow* supports_;
   double per_width_;
   SectorModel model_;
-  std::vector<NodalLoad> arcs_;
+  std::vector<NodalLoad> acting_;  ///< as GearBody::acting_wrenches
   std::unique_ptr<Interior> interior_;
 };
 

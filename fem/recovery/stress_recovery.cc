@@ -134,9 +134,20 @@ StressRecovery::Result StressRecovery::stresses(const std::vector<ToothForces>& 
   const bool closed = static_cast<int>(observed.size()) == body_.teeth;
   const auto after = [&](int sector) { return observed.find(closed ? number(sector + 1) : sector + 1); };
 
+  // The teeth in the other mesh of a planet have their loads at a few places: far from them alone that is exact.
+  const bool other_mesh = supports_ != nullptr && supports_->unknowns() < supports_->size();
+  const auto is_near = [&](int sector) {
+    constexpr int reach = 3;
+    return std::any_of(teeth.begin(), teeth.end(), [&](const auto& t) {
+      const int apart = number(sector - t.tooth);
+      return std::min(apart, body_.teeth - apart) <= reach;
+    });
+  };
+
   Result result;
   auto& largest = result.largest;
   for (const auto& [sector, values] : observed) {
+    if (other_mesh && !is_near(sector)) continue;
     const auto next = after(sector);
     if (next == observed.end()) continue;
     Line root = join(on_sector(body_.root_high, values), on_sector(body_.root_low, next->second));

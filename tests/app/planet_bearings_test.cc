@@ -11,7 +11,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/units.h"
-#include "dynamics/system/radial_bearing.h"
+#include "core/radial_bearing.h"
 #include "tests/app/run_program.h"
 #include "tests/app/scene_refusal.h"
 #include "tests/app/scenes.h"
@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(a_run_with_clearance) {
   BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
   const auto summary = Json::parse(read_file(folder.path() / "out" / "summary.json"));
   const auto& forces = summary["rings"]["held"]["bearing_forces"];
-  const dynamics::RadialBearing law(1e9, 20e-6);
+  const RadialBearing law(1e9, 20e-6);
   const auto csv = Csv::read(folder.path() / "out" / "held" / "dynamics" / "bearing_forces.csv");
   double smallest = 360;
   for (int n = 1; n <= 5; ++n) {

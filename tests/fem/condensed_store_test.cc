@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
     const auto fresh = condense_tooth(mesh, profile, ring_outside, problem.materials.wheel, options);
     BOOST_TEST(kept.reused == (!first && slices == 2));  // other slices are other unit loads
     first = false;
-    BOOST_TEST(kept.body.arc_wrenches.size() == options.arcs.size());
+    BOOST_TEST(kept.body.acting_wrenches.size() == options.arcs.size());
     same("entries of the stiffness of the cuts that differ", kept.sector.interface_stiffness,
          fresh.sector.interface_stiffness);
     same("entries of the loads on the cuts that differ", kept.sector.interface_load, fresh.sector.interface_load);
@@ -227,7 +227,7 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
     BOOST_TEST(kept.body.rim.first_load == fresh.body.rim.first_load);
     BOOST_TEST(kept.sector.compliance.rows() == fresh.body.rim.first_load + fresh.body.rim.loads());
     for (std::size_t arc = 0; arc < options.arcs.size(); ++arc)
-      BOOST_TEST((kept.body.arc_wrenches[arc] == fresh.body.arc_wrenches[arc]));
+      BOOST_TEST((kept.body.acting_wrenches[arc] == fresh.body.acting_wrenches[arc]));
   }
 }
 

@@ -41,13 +41,19 @@ void ContactBench::set_elements(int elements) {
 
 void ContactBench::rebuild() {
   system_ = std::make_unique<fem::ContactSystem>(flanks_, *bodies_.planet, *bodies_.wheel, bodies_.supports.get(),
-                                                 problem_.materials, bodies_.slice_edges, options_);
+                                                 problem_.materials, bodies_.slice_edges, options_, bodies_.rollers.get());
   pairs_ = {};
   warm_ = {};
 }
 
 fem::LoadedPosition ContactBench::solve(double phase, double load) {
   return system_->solve(0, phase, load, pairs_, warm_, nullptr);
+}
+
+fem::ContactForces ContactBench::forces(double phase, double load) {
+  fem::ContactForces forces;
+  (void)system_->solve(0, phase, load, pairs_, warm_, &forces);
+  return forces;
 }
 
 std::vector<fem::LoadedPosition> ContactBench::sweep(int steps, double load) {

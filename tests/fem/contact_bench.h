@@ -20,6 +20,8 @@ class ContactBench {
   void set_elements(int elements);
   /// Position in mesh cycles; started from the position solved before.
   fem::LoadedPosition solve(double phase, double load);
+  /// All forces of a position.
+  fem::ContactForces forces(double phase, double load);
   /// `steps` equal steps from phase 0 to 1, both included.
   std::vector<fem::LoadedPosition> sweep(int steps, double load);
 

@@ -5,7 +5,7 @@
 
 #include "core/units.h"
 #include "dynamics/figures/motion.h"
-#include "dynamics/system/radial_bearing.h"
+#include "core/radial_bearing.h"
 #include "dynamics/systems/planetary/stage_motion.h"
 
 namespace annulus::app {
@@ -19,7 +19,7 @@ void add_column(Csv& csv, const std::string& name, const Eigen::VectorXd& cycles
 
 /// rad, of a bearing with play under the forces on its pin.
 Eigen::VectorXd load_zones(const dynamics::PlanetBearing& bearing, const Eigen::VectorXd& force) {
-  const dynamics::RadialBearing law(bearing.radial, bearing.play, bearing.pin);
+  const RadialBearing law(bearing.radial, bearing.play, bearing.pin);
   return force.unaryExpr([&](double f) { return law.load_zone(f); });
 }
 

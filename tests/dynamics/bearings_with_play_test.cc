@@ -1,5 +1,3 @@
-#include "dynamics/system/radial_bearing.h"
-
 #include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/radial_bearing.h"
 #include "dynamics/modes/modes.h"
 #include "dynamics/statics/static_solver.h"
 #include "dynamics/systems/planetary/bearing_forces.h"
@@ -14,9 +13,10 @@
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
 
-BOOST_AUTO_TEST_SUITE(radial_bearing)
+BOOST_AUTO_TEST_SUITE(bearings_with_play)
 
 using namespace annulus::dynamics;
+using annulus::RadialBearing;
 
 /// Forces of rollers by themselves: N of them around the bearing, each of stiffness 4 K / N, which pushes where its
 /// raceways have approached each other by more than the play.

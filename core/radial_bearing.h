@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace annulus::dynamics {
+namespace annulus {
 
 /// Force of a rolling bearing with play over the distance of its rings' centres.
 ///
@@ -40,4 +40,4 @@ class RadialBearing {
   double stiffness_ = 1, play_ = 0, seat_ = std::numeric_limits<double>::infinity();
 };
 
-}  // namespace annulus::dynamics
+}  // namespace annulus

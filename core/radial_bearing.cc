@@ -1,4 +1,4 @@
-#include "dynamics/system/radial_bearing.h"
+#include "core/radial_bearing.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,8 @@
 #include <numbers>
 
 #include "core/errors.h"
-#include "dynamics/system/input_checks.h"
 
-namespace annulus::dynamics {
+namespace annulus {
 
 namespace {
 
@@ -39,9 +38,11 @@ Zone zone_of(double play, double distance) {
 
 RadialBearing::RadialBearing(double stiffness, double play, double seat)
     : stiffness_(stiffness), play_(play), seat_(seat) {
-  check_positive(stiffness, "stiffness of a bearing with play");
-  check_support(seat, "stiffness of the seat of a bearing", ZeroStiffness::refused);
-  check_not_negative(play, "play of a bearing");
+  if (!(stiffness > 0) || !std::isfinite(stiffness) || !(play >= 0) || !std::isfinite(play) || !(seat > 0))
+    throw InputError(
+        fmt::format("a bearing of {:g} N/m with {:g} m of play on a seat of {:g} N/m: stiffnesses must be positive, that "
+                    "of the bearing finite, and the play must not be negative",
+                    stiffness, play, seat));
 }
 
 RadialBearing::Value RadialBearing::of_rollers(double distance) const {
@@ -107,4 +108,4 @@ double RadialBearing::load_zone(double force) const {
   return 2 * zone_of(play_, distance(force) - seat).angle;
 }
 
-}  // namespace annulus::dynamics
+}  // namespace annulus

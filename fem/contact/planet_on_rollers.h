@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/radial_bearing.h"
+#include "fem/contact/flank_contact.h"
+#include "fem/contact/support_row.h"
+#include "fem/problem/planet_rollers.h"
+
+namespace annulus::fem {
+
+/// A planet's bed of rollers, and where its other mesh acts on it.
+///
+/// The other mesh presses on the other flanks of the planet: its frame is the mirror image of this one, so that its
+/// contact on a tooth follows from the angle at which that tooth stands. Its load, as large as this mesh's, is shared
+/// by its pairs by a parabola over its path of contact: far from the contact solved here only its resultant counts.
+class PlanetOnRollers {
+ public:
+  /// Places of the other flank at which forces are applied.
+  static constexpr int places = 7;
+
+  /// `planet` was condensed for the arcs of bed() and for `places`; it is referred to.
+  PlanetOnRollers(const PlanetRollers& rollers, SupportPlan bed, const GearBody& planet);
+
+  /// The bed of a planet: a patch behind every tooth, on its own unilateral in every slice.
+  [[nodiscard]] static SupportPlan bed(const PlanetRollers& rollers, int teeth, std::vector<double> slice_edges,
+                                       bool half_face);
+
+  [[nodiscard]] const SupportRow& row() const { return row_; }
+  /// Forces that the other mesh applies to the planet whose tooth 0 stands at `angle` (rad) in the frame of the solve,
+  /// per N of its load: as the last ones of row().
+  [[nodiscard]] Eigen::VectorXd partner_forces(double angle) const;
+
+  /// What the motion of a planet with a rigid rim adds to the transmission error, m, if the bed carries as much as it does
+  /// under `forces` of row() (N), and its change with the load of one mesh (m/N), of which `load` acts (N) and with which
+  /// the forces change by `change`. Throws SolverError where no equilibrium is found.
+  struct Motion {
+    double transmission_error = 0, slope = 0;
+  };
+  [[nodiscard]] Motion bearing_motion(double load, const Eigen::VectorXd& forces,
+                                      const Eigen::VectorXd& change) const;
+
+ private:
+  FlankContact partner_;
+  RadialBearing bearing_;
+  const GearBody& planet_;
+  SupportRow row_;
+  Eigen::MatrixXd directions_;  ///< of the bed's forces, as resultants: forces x 2
+  Eigen::VectorXd stiffness_;   ///< N/m, of the bed under each
+};
+
+}  // namespace annulus::fem
