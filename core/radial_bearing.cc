@@ -39,10 +39,10 @@ Zone zone_of(double play, double distance) {
 RadialBearing::RadialBearing(double stiffness, double play, double seat)
     : stiffness_(stiffness), play_(play), seat_(seat) {
   if (!(stiffness > 0) || !std::isfinite(stiffness) || !(play >= 0) || !std::isfinite(play) || !(seat > 0))
-    throw InputError(
-        fmt::format("a bearing of {:g} N/m with {:g} m of play on a seat of {:g} N/m: stiffnesses must be positive, that "
-                    "of the bearing finite, and the play must not be negative",
-                    stiffness, play, seat));
+    throw InputError(fmt::format(
+        "a bearing of {:g} N/m with {:g} m of play on a seat of {:g} N/m: stiffnesses must be positive, that "
+        "of the bearing finite, and the play must not be negative",
+        stiffness, play, seat));
 }
 
 RadialBearing::Value RadialBearing::of_rollers(double distance) const {
@@ -62,9 +62,10 @@ double RadialBearing::between_rings(double distance) const {
     rings -= change;
     if (!(change > rounding * distance)) return rings;
   }
-  throw SolverError(fmt::format("a bearing of {:g} N/m with {:g} m of play on a seat of {:g} N/m: no equilibrium at a "
-                                "distance of {:g} m",
-                                stiffness_, play_, seat_, distance));
+  throw SolverError(
+      fmt::format("a bearing of {:g} N/m with {:g} m of play on a seat of {:g} N/m: no equilibrium at a "
+                  "distance of {:g} m",
+                  stiffness_, play_, seat_, distance));
 }
 
 RadialBearing::Value RadialBearing::operator()(double distance) const {
@@ -98,8 +99,8 @@ double RadialBearing::distance(double force) const {
     rings -= change;
     if (!(change > rounding * rings)) return rings + seat;
   }
-  throw SolverError(fmt::format("a bearing of {:g} N/m with {:g} m of play: no distance under {:g} N", stiffness_,
-                                play_, force));
+  throw SolverError(
+      fmt::format("a bearing of {:g} N/m with {:g} m of play: no distance under {:g} N", stiffness_, play_, force));
 }
 
 double RadialBearing::load_zone(double force) const {

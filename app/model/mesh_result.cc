@@ -303,6 +303,7 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
                     .table = solved.table,
                     .positions = position_table(model, solved),
                     .housing = housing_table(model, solved),
+                    .rollers = roller_table(model, solved),
                     .pins = pin_table(model, solved),
                     .pressure = pressure_table(model, solved),
                     .line_load = line_load_table(model, solved),

@@ -54,6 +54,7 @@ struct MeshResult {
   Csv positions{};  ///< lte_<mesh>.csv: every position and load, with tooth pair shares and invariants; may be empty
   // The others hold for the nominal load and are empty when there is nothing to tell (mesh_tables.h).
   Csv housing{};                       ///< housing_<mesh>.csv: where the rim touches a housing bore
+  Csv rollers{};                       ///< rollers_<mesh>.csv: load of a planet's rollers around its bore
   Csv pins{};                          ///< pins_<mesh>.csv: states of pins, bolts or spline teeth
   Csv pressure{};                      ///< pressure_<mesh>.csv: pressure on the flanks
   Csv line_load{};                     ///< line_load_<mesh>.csv: load over the face width
@@ -91,8 +92,9 @@ struct MeshResult {
 
 /// The tables beside the positions, by the first part of their file names.
 inline constexpr std::pair<const char*, Csv MeshResult::*> side_tables[] = {
-    {"pins", &MeshResult::pins},           {"housing", &MeshResult::housing}, {"pressure", &MeshResult::pressure},
-    {"line_load", &MeshResult::line_load}, {"stress", &MeshResult::stress},   {"gauges", &MeshResult::gauges}};
+    {"pins", &MeshResult::pins},         {"housing", &MeshResult::housing},     {"rollers", &MeshResult::rollers},
+    {"pressure", &MeshResult::pressure}, {"line_load", &MeshResult::line_load}, {"stress", &MeshResult::stress},
+    {"gauges", &MeshResult::gauges}};
 
 /// What lumped models read of a mesh: without pictures and tables for people.
 [[nodiscard]] MeshResult stiffness_alone(const MeshResult& mesh);
@@ -118,10 +120,10 @@ template <>
 struct Members<app::MeshResult> {
   template <class Value>
   static auto of(Value& value) {
-    auto& [model, contact_ratio, table, positions, housing, pins, pressure, line_load, stress, gauges, picture, fields,
-           bodies, facts, coupling, shares, nominal, tabulated, reused] = value;
-    return std::tie(contact_ratio, table, positions, housing, pins, pressure, line_load, stress, gauges, picture,
-                    fields, bodies, facts, shares, nominal, tabulated);
+    auto& [model, contact_ratio, table, positions, housing, rollers, pins, pressure, line_load, stress, gauges, picture,
+           fields, bodies, facts, coupling, shares, nominal, tabulated, reused] = value;
+    return std::tie(contact_ratio, table, positions, housing, rollers, pins, pressure, line_load, stress, gauges,
+                    picture, fields, bodies, facts, shares, nominal, tabulated);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include "core/not_known.h"
@@ -124,6 +125,25 @@ Csv housing_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
       csv.rows.push_back({p.mesh_phase, static_cast<double>(p.ring_tooth), p.ring_angle / units::deg,
                           static_cast<double>(i), p.housing[i].radial_force});
     }
+  });
+  return csv;
+}
+
+Csv roller_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
+  Csv csv;
+  csv.columns = {"mesh_phase", "ring_tooth", "angle_deg", "load_N_per_deg"};
+  const double pitch = model.problem->pair.pinion().pitch_angle();
+  // The ring mesh is solved in a mirror image.
+  const double side = model.problem->pair.internal() ? -1 : 1;
+  at_nominal_load(model, solved, [&](const fem::LoadedPosition& p) {
+    std::vector<std::pair<double, double>> around;
+    for (std::size_t tooth = 0; tooth < p.rollers.size(); ++tooth) {
+      const double angle = std::remainder(p.planet_angle + static_cast<double>(tooth) * pitch, 2 * std::numbers::pi);
+      around.emplace_back(side * angle / units::deg, p.rollers[tooth] / (pitch / units::deg));
+    }
+    std::sort(around.begin(), around.end());
+    for (const auto& [angle, load] : around)
+      csv.rows.push_back({p.mesh_phase, static_cast<double>(p.ring_tooth), angle, load});
   });
   return csv;
 }

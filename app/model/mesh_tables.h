@@ -30,6 +30,9 @@ inline constexpr std::pair<const char*, double fem::BodyStress::*> stress_column
 /// housing_<mesh>.csv: force on the housing bore behind every ring tooth (numbered from 0) where the rim touches it, at
 /// the nominal load.
 [[nodiscard]] Csv housing_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
+/// rollers_<mesh>.csv: load of the rollers of a planet around its bore, over the angle from the direction away from the
+/// axis of the stage, at the nominal load.
+[[nodiscard]] Csv roller_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
 /// pressure_<mesh>.csv: mean pressure on the touching pieces of the flanks at the nominal load.
 [[nodiscard]] Csv pressure_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
 /// line_load_<mesh>.csv: load over the face width at the nominal load; empty when there is a single slice.

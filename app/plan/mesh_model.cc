@@ -140,6 +140,11 @@ std::string MeshModel::id() const {
       id.add("below", overhang->below).add("above", overhang->above);
     for (const double load : problem->loads) id.add("load", load);
     if (problem->pair.internal()) add_structure(id, problem->structure);
+    if (const auto& rollers = problem->planet_rollers) {
+      id.add("bearing", rollers->stiffness).add("play", rollers->play);
+      add_gear(id, "partner", rollers->partner.wheel());
+      id.add("partner_distance", rollers->partner.centre_distance());
+    }
     for (const auto& gauge : problem->gauges) {
       id.add("gauge", gauge.name).add("place", static_cast<double>(gauge.place));
       id.add("direction", static_cast<double>(gauge.direction)).add("angle", gauge.angle);
@@ -190,7 +195,8 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
                    .planet_overhang = face.pinion,
                    .wheel_overhang = face.wheel,
                    .name = mesh.mesh,
-                   .gauges = mesh.gauges};
+                   .gauges = mesh.gauges,
+                   .planet_rollers = mesh.planet_rollers};
   const fem::MeshWish wish{.model = scene.fidelity,
                            .accuracy = scene.accuracy,
                            .mean_force = mesh.mean_force,

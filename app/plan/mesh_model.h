@@ -57,8 +57,9 @@ struct GearMesh {
   fem::RingStructure structure{};                  ///< of a ring
   std::vector<fem::StrainGauge> gauges{};          ///< on a ring
   bool gauges_across = false;  ///< they stand beside the middle of the face, or measure along the axis
-  double misalignment = 0;     ///< m
-  double mean_force = 0;       ///< N, of one mesh
+  std::optional<fem::PlanetRollers> planet_rollers{};
+  double misalignment = 0;  ///< m
+  double mean_force = 0;    ///< N, of one mesh
 };
 [[nodiscard]] MeshModel mesh_model(const Scene& scene, const GearMesh& mesh);
 /// Why it needs a solid model: what changes along its face width. Empty when nothing does.

@@ -288,9 +288,9 @@ Blocks stresses(const NamedMeshes& meshes) {
     if (series.empty()) continue;
     const bool rim = name.ends_with("rim");
     const std::string body = name.substr(0, name.find(' '));
-    Plot plot =
-        wide_plot(rim ? "Rim of the " + body + ", outside" : "Tooth root of the " + body,
-                  rim ? "angle from the contact, °" : "arc length along the tooth space, mm", "stress, MPa", 340);
+    Plot plot = wide_plot(
+        rim ? "Rim of the " + body + (body == "planet" ? ", bore" : ", outside") : "Tooth root of the " + body,
+        rim ? "angle from the contact, °" : "arc length along the tooth space, mm", "stress, MPa", 340);
     plot.series = series;
     blocks += Pictures{{plot},
                        {},

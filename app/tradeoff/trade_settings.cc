@@ -79,14 +79,15 @@ std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_soli
     list.push_back({.fidelity = Fidelity::solid, .degree = 2, .level = 2, .finest = true});
     return list;
   }
-  add(Fidelity::closed_form, 2, {1});
+  const bool rollers = planned.problem->planet_rollers.has_value();  // of which plane and solid models alone know
+  if (!rollers) add(Fidelity::closed_form, 2, {1});
   add(Fidelity::plane, 1, {1, 2, 3, 4});
   add(Fidelity::plane, 2, {1, 2, 3, 4});
   add(Fidelity::plane, 3, {1, 2});
   for (const int phases : {8, 16, 64}) list.push_back({.fidelity = Fidelity::plane, .level = 2, .phases = phases});
   for (const int loads : {1, 3, 9}) list.push_back({.fidelity = Fidelity::plane, .level = 2, .loads = loads});
   // The resolved model knows no pins, and every position of it has a mesh of its own.
-  if (!fem::on_single_supports(planned.problem->structure))
+  if (!rollers && !fem::on_single_supports(planned.problem->structure))
     list.push_back({.fidelity = Fidelity::resolved_plane, .degree = 2, .level = 1, .phases = 16, .loads = 1});
   list.push_back({.fidelity = Fidelity::plane, .degree = 3, .level = 3, .phases = 64, .loads = 9, .finest = true});
   return list;

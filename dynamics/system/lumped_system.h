@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/radial_bearing.h"
 #include "dynamics/system/curve_bundle.h"
 #include "dynamics/system/mesh_excitation.h"
-#include "core/radial_bearing.h"
 
 namespace annulus::dynamics {
 

@@ -197,17 +197,18 @@ void LumpedSystemCompiler::check_uncoupled(const std::string& what, int mesh) co
   if (mesh < 0 || mesh >= meshes)
     throw InputError(fmt::format("{} names mesh {}; there are 0 to {}", what, mesh, meshes - 1));
   if (compiled_->meshes[mesh].coupled)
-    throw InputError(fmt::format("{} names mesh {} ({}), which is coupled already", what, mesh,
-                                 system_.meshes()[mesh].name));
+    throw InputError(
+        fmt::format("{} names mesh {} ({}), which is coupled already", what, mesh, system_.meshes()[mesh].name));
 }
 
 void LumpedSystemCompiler::compile_bearing(const BearingElement& bearing) {
   for (const int m : {bearing.first, bearing.second}) {
     check_uncoupled("a bearing", m);
     if (system_.meshes()[m].half_backlash)
-      throw InputError(fmt::format("mesh {} ({}) is a component of a bearing and has a half backlash of {} m; it must "
-                                   "have none",
-                                   m, system_.meshes()[m].name, *system_.meshes()[m].half_backlash));
+      throw InputError(
+          fmt::format("mesh {} ({}) is a component of a bearing and has a half backlash of {} m; it must "
+                      "have none",
+                      m, system_.meshes()[m].name, *system_.meshes()[m].half_backlash));
     compiled_->meshes[m].coupled = true;
   }
 }

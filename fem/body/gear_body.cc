@@ -156,7 +156,8 @@ template <class Stream>
 void members(Stream& stream, UnitTooth& unit) {
   GearBody& body = unit.tooth.body;
   stream(unit.tooth.seconds, body.teeth, body.pitch_angle, body.unknowns, body.flank, body.axial, body.ports,
-         body.port_points, body.acting_wrenches, body.other_rolls, body.root_low, body.root_high, body.rim, unit.outside, unit.tooth.sector);
+         body.port_points, body.acting_wrenches, body.other_rolls, body.root_low, body.root_high, body.rim,
+         unit.outside, unit.tooth.sector);
 }
 
 UnitTooth condense_unit_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,

@@ -35,7 +35,9 @@ std::pair<Fidelity, std::string> chosen_model(WantedModel wanted, const std::str
 /// Why a plane model suffices where nothing changes along the face width.
 std::string plane_reason(const LoadedMeshProblem& problem) {
   if (!problem.pair.internal())
-    return "spur gears without lead modifications on hubs over the full width: nothing changes along the face width";
+    return fmt::format(
+        "spur gears without lead modifications on {} over the full width: nothing changes along the face width",
+        problem.planet_rollers ? "rollers and a hub" : "hubs");
   const auto reason = problem.structure.words().plane_reason;
   return reason.empty() ? "" : reason + ": nothing changes along the face width";
 }

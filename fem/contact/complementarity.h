@@ -13,11 +13,11 @@ namespace annulus::fem {
 /// f are forces (pressed together > 0), w gaps after deformation, g gaps before, lambda rigid motions (transmission
 /// error, motion of a floating ring), t the loads that belong to them.
 struct ComplementarityProblem {
-  Eigen::MatrixXd compliance;    ///< C, n x n, symmetric positive definite on the null space of E^T
-  Eigen::VectorXd gap;           ///< g, n
-  Eigen::MatrixXd rigid;         ///< E, n x r
-  Eigen::VectorXd load;          ///< t, r
-  std::vector<bool> unilateral;  ///< n
+  Eigen::MatrixXd compliance;     ///< C, n x n, symmetric positive definite on the null space of E^T
+  Eigen::VectorXd gap;            ///< g, n
+  Eigen::MatrixXd rigid;          ///< E, n x r
+  Eigen::VectorXd load;           ///< t, r
+  std::vector<bool> unilateral;   ///< n
   Eigen::VectorXd applied_gap{};  ///< part of g by displacements under applied forces; empty without
 };
 

@@ -70,14 +70,14 @@ ContactForces port_forces(const ContactBodies& bodies, const ToothPairs& setup, 
 
 namespace {
 
-/// What changes with the load where the other mesh of the planet loads it by as much: its displacements are gaps, and its
-/// resultants loads of the rigid motions.
+/// What changes with the load where the other mesh of the planet loads it by as much: its displacements are gaps, and
+/// its resultants loads of the rigid motions.
 struct ChangeWithLoad {
-  Eigen::VectorXd force;           ///< N/N
+  Eigen::VectorXd force;          ///< N/N
   double transmission_error = 0;  ///< m/N
 };
 ChangeWithLoad change_with_load(const ToothPairs& setup, const ComplementarityProblem& problem,
-                        const ComplementaritySolution& solution) {
+                                const ComplementaritySolution& solution) {
   std::vector<Eigen::Index> active;
   for (Eigen::Index i = 0; i < solution.force.size(); ++i)
     if (solution.active[static_cast<std::size_t>(i)]) active.push_back(i);
@@ -115,10 +115,10 @@ LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup, co
   if (bodies.rollers != nullptr) {
     const auto change = change_with_load(setup, problem, solution);
     const auto& planet = floating.back();
-    Eigen::VectorXd row_change = row_forces(bodies, setup, planet, solution) / load;  // those applied rise with the load
+    Eigen::VectorXd row_change =
+        row_forces(bodies, setup, planet, solution) / load;  // those applied rise with the load
     row_change.head(planet.row->unknowns()) = change.force.segment(planet.force, planet.row->unknowns());
-    const auto bearing =
-        bodies.rollers->bearing_motion(load, row_forces(bodies, setup, planet, solution), row_change);
+    const auto bearing = bodies.rollers->bearing_motion(load, row_forces(bodies, setup, planet, solution), row_change);
     result.entry.lte -= bearing.transmission_error;
     compliance = change.transmission_error - bearing.slope;
   }

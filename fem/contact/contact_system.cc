@@ -114,23 +114,23 @@ void ContactSystem::add_floating(const ToothPairs& setup, int cycle, const Float
   const Eigen::Index forces = row.unknowns(), motions = row.rigid_motions(), applied = row.size() - forces;
   const Eigen::VectorXd given = applied > 0 ? applied_forces(bodies_, setup) : Eigen::VectorXd();
   if (applied > 0) problem.applied_gap = Eigen::VectorXd::Zero(problem.gap.size());
-  problem.compliance.block(body.force, body.force, forces, forces) = row.compliance().topLeftCorner(forces, forces);
+  problem.compliance.block(body.force, body.force, forces, forces) = row.compliance();
   for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
     const auto& p = setup.pairs[i];
     const FlankPatch& patch = of_wheel ? p.wheel : p.planet;
     const int tooth = of_wheel ? wheel_tooth(face_.flanks(), p.index, cycle) : p.index;
-    const Eigen::MatrixXd coupling = row.at_ports(tooth, gear.port_weights(patch));
+    const Eigen::MatrixXd weights = gear.port_weights(patch), coupling = row.at_ports(tooth, weights);
     const Eigen::Index at = setup.start[i], size = coupling.rows();
-    problem.compliance.block(at, body.force, size, forces) = coupling.leftCols(forces);
-    problem.compliance.block(body.force, at, forces, size) = coupling.leftCols(forces).transpose();
+    problem.compliance.block(at, body.force, size, forces) = coupling;
+    problem.compliance.block(body.force, at, forces, size) = coupling.transpose();
     problem.rigid.block(at, body.motion, size, motions) = -resultants(gear, patch, tooth).leftCols(motions);
-    if (applied > 0) problem.applied_gap.segment(at, size) = coupling.rightCols(applied) * given;
+    if (applied > 0) problem.applied_gap.segment(at, size) = weights.transpose() * row.applied_at_flank(tooth, given);
   }
   problem.rigid.block(body.force, body.motion, forces, motions) = -row.resultants().topRows(forces);
   problem.gap.segment(body.force, forces) = row.gap().head(forces);
   std::copy(row.unilateral().begin(), row.unilateral().begin() + forces, problem.unilateral.begin() + body.force);
   if (applied > 0) {
-    problem.applied_gap.segment(body.force, forces) = row.compliance().topRightCorner(forces, applied) * given;
+    problem.applied_gap.segment(body.force, forces) = row.applied_at_supports(given);
     problem.gap += problem.applied_gap;
     problem.load.segment(body.motion, motions) = row.resultants().bottomRows(applied).transpose() * given;
   }

@@ -101,9 +101,10 @@ PlanetOnRollers::Motion PlanetOnRollers::bearing_motion(double load, const Eigen
     if (moved.norm() <= 1e-13 * motion.norm())
       return {along.dot(motion), along.dot(compliance * on_bed(change)) + turning.dot(motion)};
   }
-  throw SolverError(fmt::format("a planet with a rigid rim on its rollers is not in equilibrium under {:.4g} N, with "
-                                "{:.4g} m of play",
-                                force.norm(), play));
+  throw SolverError(
+      fmt::format("a planet with a rigid rim on its rollers is not in equilibrium under {:.4g} N, with "
+                  "{:.4g} m of play",
+                  force.norm(), play));
 }
 
 }  // namespace annulus::fem

@@ -32,14 +32,13 @@ class PlanetOnRollers {
   /// per N of its load: as the last ones of row().
   [[nodiscard]] Eigen::VectorXd partner_forces(double angle) const;
 
-  /// What the motion of a planet with a rigid rim adds to the transmission error, m, if the bed carries as much as it does
-  /// under `forces` of row() (N), and its change with the load of one mesh (m/N), of which `load` acts (N) and with which
-  /// the forces change by `change`. Throws SolverError where no equilibrium is found.
+  /// What the motion of a planet with a rigid rim adds to the transmission error, m, if the bed carries as much as it
+  /// does under `forces` of row() (N), and its change with the load of one mesh (m/N), of which `load` acts (N) and
+  /// with which the forces change by `change`. Throws SolverError where no equilibrium is found.
   struct Motion {
     double transmission_error = 0, slope = 0;
   };
-  [[nodiscard]] Motion bearing_motion(double load, const Eigen::VectorXd& forces,
-                                      const Eigen::VectorXd& change) const;
+  [[nodiscard]] Motion bearing_motion(double load, const Eigen::VectorXd& forces, const Eigen::VectorXd& change) const;
 
  private:
   FlankContact partner_;

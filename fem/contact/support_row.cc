@@ -9,7 +9,11 @@
 namespace annulus::fem {
 
 SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, bool half_face, double turn)
-    : sites_(std::move(sites)), slice_edges_(std::move(slice_edges)), half_face_(half_face), turn_(turn), teeth_(teeth) {
+    : sites_(std::move(sites)),
+      slice_edges_(std::move(slice_edges)),
+      half_face_(half_face),
+      turn_(turn),
+      teeth_(teeth) {
   const double pitch = 2 * M_PI / teeth;
   const int slices = static_cast<int>(slice_edges_.size()) - 1;
   constexpr double same = 1e-10;  // rad: round-off of angles of a few turns
@@ -99,6 +103,7 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
     : plan_(std::move(plan)),
       ring_(ring),
       on_sector_(ring.teeth),
+      applied_on_sector_(ring.teeth),
       interfaces_(std::make_unique<Interface[]>(ring.teeth)) {
   const bool solid = ring.axial_stations() > 1, tilts = solid && !plan_.half_face() && !plan_.held_axially();
   const auto& edges = plan_.slice_edges();
@@ -113,8 +118,8 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
     Wrench wrench = Wrench::Zero();
     for (const auto& [sector, arc] : force.pieces) {
       wrench += force.weight * ring.acting_wrench(arc, sector);
-      auto& here = on_sector_[sector];
-      here.force.push_back(i);
+      auto& here = (i < unknowns() ? on_sector_ : applied_on_sector_)[sector];
+      here.force.push_back(i < unknowns() ? i : i - unknowns());
       here.arc.push_back(arc);
       here.weight.push_back(force.weight);
     }
@@ -126,7 +131,7 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
     unilateral_.push_back(support && plan_.direction(force).unilateral);
   }
 
-  compliance_ = Eigen::MatrixXd::Zero(n, n);
+  compliance_ = Eigen::MatrixXd::Zero(unknowns(), unknowns());
   for (int sector = 0; sector < ring.teeth; ++sector) {
     const auto& here = on_sector_[sector];
     if (here.force.empty()) continue;
@@ -135,7 +140,7 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
       compliance_.row(here.force[i]) += here.weight[i] * displacement.row(here.arc[i]);
   }
   compliance_ = (0.5 * (compliance_ + compliance_.transpose())).eval();
-  compliance_ += plan_.own_compliance();
+  compliance_ += plan_.own_compliance().topLeftCorner(unknowns(), unknowns());
 }
 
 const Eigen::MatrixXd& SupportRow::at_interface(int interface) const {
@@ -143,7 +148,7 @@ const Eigen::MatrixXd& SupportRow::at_interface(int interface) const {
   auto& slot = interfaces_[number];
   std::call_once(slot.formed, [&] {
     const auto& c = ring_.compliance;
-    slot.displacement = Eigen::MatrixXd::Zero(c.interface_size(), size());
+    slot.displacement = Eigen::MatrixXd::Zero(c.interface_size(), unknowns());
     for (int sector = 0; sector < ring_.teeth; ++sector) {
       const auto& here = on_sector_[sector];
       const auto count = static_cast<Eigen::Index>(here.force.size());
@@ -170,17 +175,73 @@ Eigen::MatrixXd SupportRow::at_loads(int sector, int first, int count) const {
       lapack::transpose_product(Eigen::MatrixXd(c.high().middleCols(first, count)), at_interface(sector + 1));
   const auto& here = on_sector_[tooth_number(sector)];
   for (std::size_t i = 0; i < here.force.size(); ++i)
-    result.col(here.force[i]) += per_width_ * here.weight[i] * c.within().col(ring_.first_acting() + here.arc[i]).segment(first, count);
+    result.col(here.force[i]) +=
+        per_width_ * here.weight[i] * c.within().col(ring_.first_acting() + here.arc[i]).segment(first, count);
   return result;
 }
 
-Eigen::VectorXd SupportRow::within_sector(int sector, int first, int count, const Eigen::VectorXd& forces) const {
+Eigen::VectorXd SupportRow::within(const OnSector& here, int first, int count, const Eigen::VectorXd& forces) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(count);
-  const auto& here = on_sector_[tooth_number(sector)];
   for (std::size_t i = 0; i < here.force.size(); ++i)
     result += per_width_ * here.weight[i] * forces[here.force[i]] *
               ring_.compliance.within().col(ring_.first_acting() + here.arc[i]).segment(first, count);
   return result;
+}
+
+Eigen::VectorXd SupportRow::within_sector(int sector, int first, int count, const Eigen::VectorXd& forces) const {
+  const int number = tooth_number(sector);
+  Eigen::VectorXd result = within(on_sector_[number], first, count, forces);
+  if (plan_.applied() > 0) result += within(applied_on_sector_[number], first, count, forces.tail(plan_.applied()));
+  return result;
+}
+
+void SupportRow::add_applied(int interface, const Eigen::VectorXd& applied, Eigen::VectorXd& displacement) const {
+  const auto& c = ring_.compliance;
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(c.interface_size(), 1);
+  for (int sector = 0; sector < ring_.teeth; ++sector) {
+    const auto& here = applied_on_sector_[sector];
+    Eigen::MatrixXd low = Eigen::MatrixXd::Zero(c.interface_size(), 1), high = low;
+    bool loaded = false;
+    for (std::size_t i = 0; i < here.force.size(); ++i) {
+      const double force = here.weight[i] * applied[here.force[i]];
+      if (force == 0) continue;
+      loaded = true;
+      low += force * c.low().col(ring_.first_acting() + here.arc[i]);
+      high += force * c.high().col(ring_.first_acting() + here.arc[i]);
+    }
+    if (!loaded) continue;
+    c.add_interface_displacement(interface - sector, low, moved);
+    c.add_interface_displacement(interface - sector - 1, high, moved);
+  }
+  displacement += per_width_ * moved.col(0);
+}
+
+Eigen::VectorXd SupportRow::interface_displacement(int interface, const Eigen::VectorXd& forces) const {
+  Eigen::VectorXd result = at_interface(interface) * forces.head(unknowns());
+  if (plan_.applied() > 0) add_applied(tooth_number(interface), forces.tail(plan_.applied()), result);
+  return result;
+}
+
+Eigen::VectorXd SupportRow::applied_at_supports(const Eigen::VectorXd& applied) const {
+  // By reciprocity from the work of the applied forces under those of the supports.
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(unknowns());
+  for (int sector = 0; sector < ring_.teeth; ++sector) {
+    const auto& here = applied_on_sector_[sector];
+    for (std::size_t i = 0; i < here.force.size(); ++i)
+      if (const double force = here.weight[i] * applied[here.force[i]]; force != 0)
+        result += force * at_loads(sector, ring_.first_acting() + here.arc[i], 1).row(0).transpose();
+  }
+  return result;
+}
+
+Eigen::VectorXd SupportRow::applied_at_flank(int tooth, const Eigen::VectorXd& applied) const {
+  const auto& c = ring_.compliance;
+  const int ports = ring_.flank_ports(), number = tooth_number(tooth);
+  Eigen::VectorXd low = Eigen::VectorXd::Zero(c.interface_size()), high = low;
+  add_applied(number, applied, low);
+  add_applied(tooth_number(tooth + 1), applied, high);
+  return c.low().leftCols(ports).transpose() * low + c.high().leftCols(ports).transpose() * high +
+         within(applied_on_sector_[number], 0, ports, applied);
 }
 
 Eigen::MatrixXd SupportRow::at_ports(int tooth, const Eigen::MatrixXd& port_weights) const {
@@ -192,16 +253,15 @@ Eigen::MatrixXd SupportRow::at_ports(int tooth, const Eigen::MatrixXd& port_weig
       lapack::transpose_product(low, at_interface(tooth)) + lapack::transpose_product(high, at_interface(tooth + 1));
   const auto& here = on_sector_[tooth_number(tooth)];
   for (std::size_t i = 0; i < here.force.size(); ++i)
-    result.col(here.force[i]) +=
-        per_width_ * here.weight[i] * port_weights.transpose() *
-        c.within().col(ring_.first_acting() + here.arc[i]).head(ports);
+    result.col(here.force[i]) += per_width_ * here.weight[i] * port_weights.transpose() *
+                                 c.within().col(ring_.first_acting() + here.arc[i]).head(ports);
   return result;
 }
 
 Eigen::VectorXd SupportRow::at_flank(int tooth, const Eigen::VectorXd& forces) const {
   const auto& c = ring_.compliance;
   const int ports = ring_.flank_ports();
-  const Eigen::VectorXd low = at_interface(tooth) * forces, high = at_interface(tooth + 1) * forces;
+  const Eigen::VectorXd low = interface_displacement(tooth, forces), high = interface_displacement(tooth + 1, forces);
   return c.low().leftCols(ports).transpose() * low + c.high().leftCols(ports).transpose() * high +
          within_sector(tooth, 0, ports, forces);
 }

@@ -67,9 +67,10 @@ class SupportRow {
   /// Rigid motions of the ring: x, y, rotation about z; of a whole solid one also about x and y, unless the plan holds
   /// it axially. Else axial motion is not resisted, and not loaded.
   [[nodiscard]] int rigid_motions() const { return static_cast<int>(resultants_.cols()); }
-  /// forces x rigid motions: resultants of unit forces (N, N m)
+  /// forces x rigid motions: resultants of unit forces (N, N m), of applied ones too
   [[nodiscard]] const Eigen::MatrixXd& resultants() const { return resultants_; }
-  /// Displacements at the supports under unit support forces, m/N, the supports' own compliance included.
+  /// Displacements at the supports under unit support forces, m/N, the supports' own compliance included. Here and
+  /// below a column belongs to an unknown force.
   [[nodiscard]] const Eigen::MatrixXd& compliance() const { return compliance_; }
   [[nodiscard]] const Eigen::VectorXd& gap() const { return gap_; }  ///< m
   [[nodiscard]] const std::vector<bool>& unilateral() const { return unilateral_; }
@@ -77,14 +78,19 @@ class SupportRow {
   /// Displacement of loads of a tooth under unit support forces, m/N: the work of `port_weights` (ports x k) is asked
   /// for; k x forces.
   [[nodiscard]] Eigen::MatrixXd at_ports(int tooth, const Eigen::MatrixXd& port_weights) const;
-  /// Displacement of the flank ports of a tooth under given support forces, m.
+  /// Displacement of the supports, and of the flank ports of a tooth, under applied forces alone, m.
+  [[nodiscard]] Eigen::VectorXd applied_at_supports(const Eigen::VectorXd& applied) const;
+  [[nodiscard]] Eigen::VectorXd applied_at_flank(int tooth, const Eigen::VectorXd& applied) const;
+  /// Displacement of the flank ports of a tooth under all forces, m.
   [[nodiscard]] Eigen::VectorXd at_flank(int tooth, const Eigen::VectorXd& forces) const;
   /// Displacements of interface `interface` under unit support forces, m/N: m x forces. Formed when first asked for.
   [[nodiscard]] const Eigen::MatrixXd& at_interface(int interface) const;
+  /// Displacements of an interface under all forces, m.
+  [[nodiscard]] Eigen::VectorXd interface_displacement(int interface, const Eigen::VectorXd& forces) const;
   /// Work of loads first ... first + count - 1 of a sector under unit support forces, per N: count x forces.
   [[nodiscard]] Eigen::MatrixXd at_loads(int sector, int first, int count) const;
 
-  /// The part of such work that passes inside the sector, its interfaces held, under given support forces: count.
+  /// The part of such work that passes inside the sector, its interfaces held, under all forces: count.
   [[nodiscard]] Eigen::VectorXd within_sector(int sector, int first, int count, const Eigen::VectorXd& forces) const;
 
   /// Force of every site, N: all its slices, in its first direction.
@@ -93,7 +99,7 @@ class SupportRow {
   void fill_states(const Eigen::VectorXd& forces, LoadedPosition& position) const;
 
  private:
-  /// Forces of the row that act on one sector, each through one of its acting loads.
+  /// Unknown or applied forces of the row that act on one sector, each through one of its acting loads.
   struct OnSector {
     std::vector<int> force, arc;
     std::vector<double> weight;
@@ -103,7 +109,10 @@ class SupportRow {
   SupportPlan plan_;
   const GearBody& ring_;
   double per_width_ = 1;  ///< plane compliances are per unit of width
-  std::vector<OnSector> on_sector_;
+  [[nodiscard]] Eigen::VectorXd within(const OnSector& here, int first, int count, const Eigen::VectorXd& forces) const;
+  /// Adds the displacement of an interface under applied forces, m.
+  void add_applied(int interface, const Eigen::VectorXd& applied, Eigen::VectorXd& displacement) const;
+  std::vector<OnSector> on_sector_, applied_on_sector_;  ///< forces numbered on their own
   Eigen::MatrixXd compliance_, resultants_;
   Eigen::VectorXd gap_;
   std::vector<bool> unilateral_;

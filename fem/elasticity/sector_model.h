@@ -65,9 +65,9 @@ struct SectorModel {
 enum class SectorOutput {
   outside,      ///< outside
   other_flank,  ///< other_flank
-  stress,   ///< root_low, root_high, and rim where the support circle is free
-  mass,     ///< nodal_mass
-  field     ///< field
+  stress,       ///< root_low, root_high, and rim where the support circle is free
+  mass,         ///< nodal_mass
+  field         ///< field
 };
 
 struct SectorModelOptions {

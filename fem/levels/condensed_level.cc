@@ -82,8 +82,8 @@ std::vector<BodyField> worst_fields(const LoadedMeshProblem& problem, const Mesh
   const auto forces = forces_at(system, positions[worst]);
   std::vector<BodyField> fields;
   const auto add = [&](const char* name, const BodySource& source, const CondensedBody& body, const Material& material,
-                       const std::vector<ToothForces>& teeth, const SupportRow* supports,
-                       const Eigen::VectorXd& held, const Eigen::VectorXd& rigid) {
+                       const std::vector<ToothForces>& teeth, const SupportRow* supports, const Eigen::VectorXd& held,
+                       const Eigen::VectorXd& rigid) {
     const FieldRecovery recovery(body.body(), source, material, problem.face_width, supports);
     fields.push_back(recovery.field(teeth, held, rigid, problem.pair.internal()));
     fields.back().body = name;
@@ -91,8 +91,8 @@ std::vector<BodyField> worst_fields(const LoadedMeshProblem& problem, const Mesh
   };
   add("planet", bodies.planet_source, *bodies.planet, problem.materials.planet, forces.planet,
       bodies.rollers ? &bodies.rollers->row() : nullptr, forces.rollers, forces.planet_rigid);
-  add("wheel", bodies.wheel_source, *bodies.wheel, problem.materials.wheel, forces.wheel, bodies.supports.get(), forces.supports,
-      forces.rigid);
+  add("wheel", bodies.wheel_source, *bodies.wheel, problem.materials.wheel, forces.wheel, bodies.supports.get(),
+      forces.supports, forces.rigid);
   return fields;
 }
 

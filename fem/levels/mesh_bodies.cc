@@ -207,11 +207,10 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   bodies.wheel = condensed(wheel, pair.wheel().base_radius(), of_wheel);
   if (supports) bodies.supports = std::make_unique<SupportRow>(std::move(*supports), bodies.wheel->body());
   if (bed)
-    bodies.rollers =
-        std::make_unique<PlanetOnRollers>(*problem.planet_rollers, std::move(*bed), bodies.planet->body());
-  bodies.planet_stress = std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width,
-                                                          of_planet.poisson_ratio,
-                                                          bed ? &bodies.rollers->row() : nullptr, bodies.planet_notch);
+    bodies.rollers = std::make_unique<PlanetOnRollers>(*problem.planet_rollers, std::move(*bed), bodies.planet->body());
+  bodies.planet_stress =
+      std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width, of_planet.poisson_ratio,
+                                       bed ? &bodies.rollers->row() : nullptr, bodies.planet_notch);
   bodies.wheel_stress = std::make_unique<StressRecovery>(
       bodies.wheel->body(), problem.face_width, of_wheel.poisson_ratio, bodies.supports.get(), bodies.wheel_notch);
   std::size_t in_section = 0;

@@ -42,9 +42,10 @@ void check_rollers(const LoadedMeshProblem& problem, Fidelity fidelity) {
     throw InputError(fmt::format("a planet on rollers needs spur teeth, not helical ones of {:.4g} degrees",
                                  problem.pair.pinion().helix_angle() * 180 / M_PI));
   if (!(rollers.stiffness > 0) || !std::isfinite(rollers.stiffness) || !(rollers.play >= 0))
-    throw InputError(fmt::format("rollers of {:.4g} N/m with {:.4g} m of play: the stiffness has to be positive and "
-                                 "finite, the play not negative",
-                                 rollers.stiffness, rollers.play));
+    throw InputError(
+        fmt::format("rollers of {:.4g} N/m with {:.4g} m of play: the stiffness has to be positive and "
+                    "finite, the play not negative",
+                    rollers.stiffness, rollers.play));
   if (rollers.partner.pinion().teeth() != problem.pair.pinion().teeth() ||
       rollers.partner.internal() == problem.pair.internal())
     throw InputError(

@@ -88,7 +88,7 @@ Eigen::MatrixXd FieldRecovery::interface_displacement(int interface, const std::
     c.add_interface_displacement(interface - t.tooth, per_width_ * c.low().leftCols(ports) * t.ports, v);
     c.add_interface_displacement(interface - t.tooth - 1, per_width_ * c.high().leftCols(ports) * t.ports, v);
   }
-  if (supports_ != nullptr) v += supports_->at_interface(interface) * supports;
+  if (supports_ != nullptr) v += supports_->interface_displacement(interface, supports);
   return v;
 }
 

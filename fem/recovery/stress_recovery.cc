@@ -94,7 +94,7 @@ std::map<int, Eigen::VectorXd> StressRecovery::by_sector(const std::vector<Tooth
       displacement.col(loads[static_cast<std::size_t>(i)].first + offset - first) += moved.col(i);
   }
   if (supports_ != nullptr)
-    for (int i = 0; i <= sectors; ++i) displacement.col(i) += supports_->at_interface(first + i) * supports;
+    for (int i = 0; i <= sectors; ++i) displacement.col(i) += supports_->interface_displacement(first + i, supports);
 
   const Eigen::MatrixXd stress =
       lapack::transpose_product(c.low().middleCols(first_load_, loads_), displacement.leftCols(sectors)) +

@@ -10,8 +10,8 @@
 #include "core/csv.h"
 #include "core/files.h"
 #include "core/json.h"
-#include "core/units.h"
 #include "core/radial_bearing.h"
+#include "core/units.h"
 #include "tests/app/run_program.h"
 #include "tests/app/scene_refusal.h"
 #include "tests/app/scenes.h"
@@ -129,8 +129,7 @@ BOOST_AUTO_TEST_CASE(what_a_plane_model_leaves_out_is_said) {
   const auto warnings = [](const std::string& keys) {
     const auto scene = scene_of(keys);
     std::string text;
-    for (const auto& warning : app::stage_scene_warnings(scene, app::make_geometry(scene)))
-      text += warning.text + "\n";
+    for (const auto& warning : app::stage_scene_warnings(scene, app::make_geometry(scene))) text += warning.text + "\n";
     return text;
   };
   const auto tilted = warnings("planet_N_per_m = 1e9\n" + pin("cantilever", 80, 120));

@@ -51,8 +51,7 @@ BOOST_AUTO_TEST_CASE(many_rollers_give_the_law) {
     force = std::max(force, std::abs(law(distance).force / expected - 1));
     zone = std::max(zone, std::abs(law.load_zone(law(distance).force) - 2 * std::acos(play / distance)));
   }
-  record.at_most("force at five distances, largest relative difference", "", force, 3e-6,
-                 "trapezoidal rule");
+  record.at_most("force at five distances, largest relative difference", "", force, 3e-6, "trapezoidal rule");
   BOOST_TEST(zone <= 1e-6);
 }
 
@@ -191,7 +190,8 @@ BOOST_AUTO_TEST_CASE(both_methods_find_the_motion) {
   const double mean = stage.carrier_torque() / (stage.planets() * stage.carrier.radius);
   BOOST_TEST(std::abs(pins.tangential.mean() / mean - 1) <= 1e-3);
   const double centrifugal = stage.planet.mass * stage.carrier.radius * std::pow(stage.carrier_speed, 2);
-  const double across = stage.mean_mesh_force() * (std::sin(stage.sun_working_angle) - std::sin(stage.ring_working_angle));
+  const double across =
+      stage.mean_mesh_force() * (std::sin(stage.sun_working_angle) - std::sin(stage.ring_working_angle));
   BOOST_TEST(std::abs(pins.radial.mean() - centrifugal - across) <= 1e-3 * mean);
 }
 

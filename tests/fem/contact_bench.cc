@@ -40,8 +40,9 @@ void ContactBench::set_elements(int elements) {
 }
 
 void ContactBench::rebuild() {
-  system_ = std::make_unique<fem::ContactSystem>(flanks_, *bodies_.planet, *bodies_.wheel, bodies_.supports.get(),
-                                                 problem_.materials, bodies_.slice_edges, options_, bodies_.rollers.get());
+  system_ =
+      std::make_unique<fem::ContactSystem>(flanks_, *bodies_.planet, *bodies_.wheel, bodies_.supports.get(),
+                                           problem_.materials, bodies_.slice_edges, options_, bodies_.rollers.get());
   pairs_ = {};
   warm_ = {};
 }

@@ -69,8 +69,12 @@ struct GearInput {
   std::shared_ptr<const geometry::FlankTopography> leading_flank, trailing_flank;
 };
 
+/// What holds the bore of a gear: a rigid hub, or rollers on a rigid pin (of planets).
+enum class BoreOn { hub, rollers };
+
 struct HubGearInput : GearInput {
   std::optional<double> bore_diameter;
+  BoreOn bore = BoreOn::hub;
 };
 
 /// An eccentricity turns with its body; a position error is fixed in the housing or on the carrier.

@@ -45,7 +45,7 @@ enum class PinMounting { unbending, between_walls, cantilever, flexpin };
 struct SupportInput {
   double sun = rigid, ring = rigid, carrier = rigid, planet = rigid;
   std::vector<double> planet_radial, planet_tangential;  ///< one per planet; empty: `planet`
-  double planet_clearance = 0;  ///< m, radial clearance
+  double planet_clearance = 0;                           ///< m, radial clearance
   PinMounting planet_pin = PinMounting::unbending;
   std::optional<double> pin_diameter, pin_length;  ///< m
   /// Absent: rigid of the member that is held, none of the others (torsional_support).

@@ -24,6 +24,16 @@ std::string solid_reason(const Scene& scene) {
       {}, face_features(scene, scene.planet, "planet", scene.sun, "sun", scene.errors.sun_planet_misalignment));
 }
 
+namespace {
+
+/// `partner`: the other mesh of the planets.
+std::optional<fem::PlanetRollers> rollers_of(const Scene& scene, const geometry::GearPair& partner) {
+  if (scene.planet.bore != BoreOn::rollers) return std::nullopt;
+  return fem::PlanetRollers{scene.supports.planet, scene.supports.planet_clearance / 2, partner};
+}
+
+}  // namespace
+
 MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
   return mesh_model(scene, {.mesh = sun_planet,
                             .title = "sun-planet mesh",
@@ -34,6 +44,7 @@ MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
                             .planet_name = "planet",
                             .wheel_name = "sun",
                             .wheel_support_diameter = scene.sun.bore_diameter,
+                            .planet_rollers = rollers_of(scene, geometry.rings.front().set.ring_mesh()),
                             .misalignment = scene.errors.sun_planet_misalignment,
                             .mean_force = geometry.operating_point.mean_mesh_force});
 }
@@ -54,6 +65,7 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
                             .structure = ring_structure(input),
                             .gauges = gauges_on(scene, input, made.set.ring_mesh().common_face().width),
                             .gauges_across = gauges_need_solid(scene, input),
+                            .planet_rollers = rollers_of(scene, made.set.sun_mesh()),
                             .misalignment = scene.errors.ring_planet_misalignment,
                             .mean_force = geometry.operating_point.mean_mesh_force});
 }

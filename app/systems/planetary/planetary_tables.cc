@@ -90,6 +90,19 @@ Table planetary_hub_gear_table(const char* path, const char* meaning, HubGearInp
   return gear.done();
 }
 
+Table planet_bore_key(const Condition& computed) {
+  Declarations planet("planet", "", &Scene::planet);
+  planet
+      .choice(
+          "bore", &HubGearInput::bore, {{"hub", BoreOn::hub}, {"rollers", BoreOn::rollers}},
+          "What the bore stands on. hub: a rigid hub, to which the body is fixed. rollers: the bore is the raceway of "
+          "the planet's bearing, whose stiffness and clearance are those of [supports]. Both meshes then bend the "
+          "rim of the planet.")
+      .only_if(computed, "a prescribed stiffness does not describe the body")
+      .fallback("hub", "a rim so thick that it stays round");
+  return planet.done();
+}
+
 Table carrier_table() {
   Declarations carrier("carrier", "The planet carrier.", &Scene::carrier);
   carrier.optional();
@@ -195,15 +208,16 @@ Table supports_table() {
       .fallback(0.0, "rollers carry on both sides of the bearing")
       .from(0, 1000);
   supports
-      .choice("planet_pin", &SupportInput::planet_pin,
-              {{"rigid", PinMounting::unbending},
-               {"between_walls", PinMounting::between_walls},
-               {"cantilever", PinMounting::cantilever},
-               {"flexpin", PinMounting::flexpin}},
-              "What carries a planet's bearing; its compliance is added to that of the bearing. rigid: nothing is "
-              "added. between_walls: a pin clamped in both walls of the carrier, loaded in the middle. cantilever: a pin "
-              "clamped in one wall. flexpin: a pin clamped in one wall, whose other end carries a sleeve; the middle "
-              "of the planet lies over the middle of the pin, which keeps it parallel.")
+      .choice(
+          "planet_pin", &SupportInput::planet_pin,
+          {{"rigid", PinMounting::unbending},
+           {"between_walls", PinMounting::between_walls},
+           {"cantilever", PinMounting::cantilever},
+           {"flexpin", PinMounting::flexpin}},
+          "What carries a planet's bearing; its compliance is added to that of the bearing. rigid: nothing is "
+          "added. between_walls: a pin clamped in both walls of the carrier, loaded in the middle. cantilever: a pin "
+          "clamped in one wall. flexpin: a pin clamped in one wall, whose other end carries a sleeve; the middle "
+          "of the planet lies over the middle of the pin, which keeps it parallel.")
       .fallback("rigid", "planet_N_per_m contains the pin");
   const auto bends = !is("planet_pin", {"rigid"});
   supports.key("planet_pin_diameter_mm", &SupportInput::pin_diameter, "Diameter of a solid pin where it bends.")
@@ -324,6 +338,7 @@ std::vector<Table> planetary_tables() {
   return {planetary_stage_table(),
           planetary_hub_gear_table("sun", "The sun gear.", &Scene::sun, "planet", sun_computed),
           planetary_hub_gear_table("planet", "Each planet gear.", &Scene::planet, "sun", sun_computed || ring_computed),
+          planet_bore_key(sun_computed || ring_computed),
           carrier_table(),
           ring_table(),
           planetary_errors_table(),

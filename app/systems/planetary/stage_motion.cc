@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/radial_bearing.h"
 #include "core/units.h"
 #include "dynamics/figures/motion.h"
-#include "core/radial_bearing.h"
 #include "dynamics/systems/planetary/stage_motion.h"
 
 namespace annulus::app {
@@ -59,7 +59,7 @@ void add_bearings(StageMotion& motion, const dynamics::StageMotion& found, const
   using geometry::StageMember;
   const auto& reaction = *stage.held == StageMember::sun    ? found.sun_support
                          : *stage.held == StageMember::ring ? found.ring_support
-                                                      : found.carrier_support;
+                                                            : found.carrier_support;
   add_column(csv, "held_torque_mean_N_m", dynamics::over_cycles(reaction.torque, cycles).mean);
   motion.held_torque_mean = reaction.torque.mean();
 }

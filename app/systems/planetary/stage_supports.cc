@@ -70,8 +70,8 @@ SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring
   s.carrier_torsional = torsional(StageMember::carrier, both);
   s.carrier = rigid_if_stiff(s.carrier, n * both, accuracy);
   // The force on a bearing with clearance needs the motion in it.
-  s.planet = s.planet_clearance > 0 ? as_stiff_as_matters(s.planet, both, accuracy)
-                                    : rigid_if_stiff(s.planet, both, accuracy);
+  s.planet =
+      s.planet_clearance > 0 ? as_stiff_as_matters(s.planet, both, accuracy) : rigid_if_stiff(s.planet, both, accuracy);
   for (auto* own : {&s.planet_radial, &s.planet_tangential})
     for (double& bearing : *own) bearing = rigid_if_stiff(bearing, both, accuracy);
   return s;

@@ -8,10 +8,11 @@
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/planetary/power_flow.h"
+#include "app/systems/planetary/roller_loads.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/mesh_names.h"
-#include "core/units.h"
 #include "core/json.h"
+#include "core/units.h"
 
 namespace annulus::app {
 
@@ -102,6 +103,12 @@ Json ring_json(const RunResult& result, std::size_t number) {
                         {"reciprocity_relative", json_number(worst(ring.mesh, sun_mesh, "reciprocity_relative"))}};
   if (const auto readings = gauge_readings(result.scene, result.geometry.rings[number].set, ring.mesh))
     json["strain_gauges"] = to_json(result.scene, *readings);
+  for (const auto& [name, mesh] : {std::pair{"sun_planet", &sun_mesh}, {"ring_planet", &ring.mesh}})
+    if (const auto loads = roller_loads(result.scene, result.geometry.rings[number].set, *mesh))
+      json["planet_rollers"][name] = {{"largest_N_per_deg", loads->largest * units::deg},
+                                      {"largest_over_round_rim", loads->largest / loads->largest_rigid},
+                                      {"load_zone_deg", loads->load_zone / units::deg},
+                                      {"load_zone_of_round_rim_deg", loads->rigid_load_zone / units::deg}};
   if (ring.tolerances) json["load_sharing_of_assemblies"] = to_json(*ring.tolerances);
   if (!ring.response) return json;
   const auto& f = ring.response->figures;

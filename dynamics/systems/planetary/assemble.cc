@@ -38,7 +38,8 @@ PlaneBody add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
   return c;
 }
 
-/// The component of a planet's motion in its bearing along a unit vector (radial, tangential), with the stiffness there.
+/// The component of a planet's motion in its bearing along a unit vector (radial, tangential), with the stiffness
+/// there.
 MeshElement bearing_component(const PlanetaryStage& stage, const std::string& name, const LinearForm& radial,
                               const LinearForm& tangential, const Eigen::Vector2d& direction, double stiffness) {
   MeshElement element;
@@ -60,9 +61,8 @@ void add_bearing_with_play(LumpedSystemBuilder& builder, const PlanetaryStage& s
   const double distance = law.distance(size), slope = law(distance).slope;
   const int first =
       builder.add_mesh(bearing_component(stage, name + "_bearing_along", radial, tangential, along, slope));
-  const int second =
-      builder.add_mesh(bearing_component(stage, name + "_bearing_across", radial, tangential, {-along[1], along[0]},
-                                         distance > 0 ? size / distance : slope));
+  const int second = builder.add_mesh(bearing_component(stage, name + "_bearing_across", radial, tangential,
+                                                        {-along[1], along[0]}, distance > 0 ? size / distance : slope));
   builder.add_bearing({first, second, law});
   const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
   builder.add_load(radial, stage.planet.mass * stage.carrier.radius * speed * speed);

@@ -16,9 +16,9 @@ struct BearingForces {
   }
 };
 
-/// Elastic bearings: force of springs (or of the law of a bearing with play) and dampers, k X + c X'. Rigid bearings: from the equilibrium of the planet. The
-/// centrifugal force m a Omega^2 is part of the radial force, unless the stage neglects the rotating frame. `series`
-/// must belong to the stage.
+/// Elastic bearings: force of springs (or of the law of a bearing with play) and dampers, k X + c X'. Rigid bearings:
+/// from the equilibrium of the planet. The centrifugal force m a Omega^2 is part of the radial force, unless the stage
+/// neglects the rotating frame. `series` must belong to the stage.
 [[nodiscard]] BearingForces bearing_forces(const PlanetaryStage& stage, const TimeSeries& series);
 
 /// Reaction of the supports of a central body on the housing, one value per time: k x + c (x' - Omega y) and so on. For

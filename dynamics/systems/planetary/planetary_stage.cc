@@ -191,10 +191,10 @@ void PlanetaryStage::check() const {
     check_support(bearing.pin, "stiffness of a planet pin", ZeroStiffness::refused);
     check_not_negative(bearing.play, "play of a planet bearing");
     if (bearing.play > 0 && (bearing.radial != bearing.tangential || bearing.radial == rigid))
-      throw InputError(
-          fmt::format("a planet bearing with play needs one finite stiffness in all directions, not {} N/m radially and "
-                      "{} N/m tangentially",
-                      bearing.radial, bearing.tangential));
+      throw InputError(fmt::format(
+          "a planet bearing with play needs one finite stiffness in all directions, not {} N/m radially and "
+          "{} N/m tangentially",
+          bearing.radial, bearing.tangential));
   }
   if (planets() < 1) throw InputError(fmt::format("a planetary stage needs at least one planet, not {}", planets()));
   for (const double angle : planet_angles)

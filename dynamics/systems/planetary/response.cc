@@ -88,9 +88,8 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
                               .start = options.start};
   auto found = steady_response(system, problem, options);
   static_cast<SteadyOutcome&>(response) = static_cast<const SteadyOutcome&>(found);
-  response.cycle_force =
-      cycle_means(averaging_force(found.best).topRows(2 * static_cast<Eigen::Index>(stage.planets())),
-                  found.window_cycles);
+  response.cycle_force = cycle_means(
+      averaging_force(found.best).topRows(2 * static_cast<Eigen::Index>(stage.planets())), found.window_cycles);
   response.force_balance_relative = force_balance(stage, system, found);
   set_figures(stage, options, found, response);
   if (options.keep_series) response.series = series_of(system, std::move(found.best));

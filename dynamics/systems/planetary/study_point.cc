@@ -62,7 +62,8 @@ PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& opt
   const Eigen::MatrixXd delta = deflections(system, series.time, series.displacement);
   set_motion(point.figures, "sun", sun_motion(system, series));
   set_motion(point.figures, "sun_planet_deflection", largest_range(delta.topRows(stage.planets())));
-  set_motion(point.figures, "ring_planet_deflection", largest_range(delta.middleRows(stage.planets(), stage.planets())));
+  set_motion(point.figures, "ring_planet_deflection",
+             largest_range(delta.middleRows(stage.planets(), stage.planets())));
   point.figures.add(frequency_figures(modes(stage), planetary_frequencies, Multiples::once));
   const Eigen::Index per_cycle = series.time.size() / response.window_cycles;
   for (int c = 0; c < std::min(options.poincare_cycles, response.window_cycles); ++c)

@@ -35,9 +35,8 @@ PageTable motion_table(const RunResult& result) {
     return std::accumulate(f.begin(), f.end(), 0.0) / static_cast<double>(f.size());
   });
   if (result.scene.supports.planet_clearance > 0)
-    rows.push_back({"smallest load zone of a planet bearing, degrees", [](const StageResponse& r) {
-                      return Text(to_text(r.motion.load_zone_min / units::deg, 3));
-                    }});
+    rows.push_back({"smallest load zone of a planet bearing, degrees",
+                    [](const StageResponse& r) { return Text(to_text(r.motion.load_zone_min / units::deg, 3)); }});
   row("largest force on the sun's support", force, [](const StageMotion& m) { return m.sun_support_max; });
   row("largest force on the ring's support", force, [](const StageMotion& m) { return m.ring_support_max; });
   row("largest force on the carrier's support", force, [](const StageMotion& m) { return m.carrier_support_max; });

@@ -86,6 +86,7 @@ Page stage_report(const RunResult& result) {
                     dynamics_section(result),
                     motion_section(result),
                     supports_section(result),
+                    rollers_section(result),
                     strain_gauges_section(result),
                     contact_section(meshes),
                     {"stiffness", "Transmission error and stiffness", stiffness_blocks(meshes)},

@@ -47,6 +47,8 @@ struct PlanetLines {
 // answers.cc
 [[nodiscard]] Blocks stage_verdict(const RunResult& result);        ///< what came out, in plain words
 [[nodiscard]] Section comparison_section(const RunResult& result);  ///< with the published results
+// rollers.cc
+[[nodiscard]] Section rollers_section(const RunResult& result);  ///< of planets whose bore is a raceway
 // supports.cc
 [[nodiscard]] Section supports_section(const RunResult& result);  ///< pins, bolts and splines
 // strain_gauges.cc
