@@ -1,3 +1,4 @@
+#include <Eigen/Core>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -164,6 +165,89 @@ BOOST_AUTO_TEST_CASE(a_run_with_clearance) {
   }
   BOOST_TEST(std::abs(forces["load_zone_min_deg"].get<double>() - smallest) <= 1e-3);
   BOOST_TEST((smallest > 0 && smallest < 180));
+}
+
+namespace {
+
+/// The smallest stage with thin planets on rollers.
+std::string thin_planets(const std::string& bearing = "planet_N_per_m = 1e9, planet_clearance_um = 30") {
+  auto text = test::replaced(read_file(ANNULUS_SOURCE_DIR "/data/scenes/minimal.toml"), "bore_diameter_mm = 45",
+                             "bore_diameter_mm = 70, bore = \"rollers\"");
+  return test::replaced(text, "planet_N_per_m = 1e9", bearing);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(planets_on_rollers_reach_both_meshes) {
+  const auto scene = app::parse_scene(thin_planets(), "scene.toml");
+  const auto geometry = app::make_geometry(scene);
+  const auto sun = app::sun_mesh_model(scene, geometry), ring = app::ring_mesh_model(scene, geometry, 0);
+  for (const auto* model : {&sun, &ring}) {
+    BOOST_TEST_REQUIRE(model->problem->planet_rollers.has_value());
+    const auto& rollers = *model->problem->planet_rollers;
+    BOOST_TEST((rollers.stiffness == 1e9 && std::abs(rollers.play - 15e-6) < 1e-15));
+    BOOST_TEST(rollers.partner.internal() != model->problem->pair.internal());
+    BOOST_TEST((model->fidelity == "plane"));
+  }
+  // All that they stand on belongs to the identity of a mesh.
+  const auto other = [&](const std::string& bearing) {
+    const auto changed = app::parse_scene(thin_planets(bearing), "scene.toml");
+    return app::sun_mesh_model(changed, app::make_geometry(changed)).id();
+  };
+  BOOST_TEST(other("planet_N_per_m = 2e9, planet_clearance_um = 30") != sun.id());
+  BOOST_TEST(other("planet_N_per_m = 1e9") != sun.id());
+  BOOST_TEST(other("planet_N_per_m = 1e9, planet_clearance_um = 30") == sun.id());
+}
+
+BOOST_AUTO_TEST_CASE(rollers_that_are_not_modelled_are_refused) {
+  const auto refused = [](const std::string& text, const std::string& words) {
+    const auto message = test::scene_refusal(text);
+    BOOST_TEST(message.find(words) != std::string::npos, "\"" << message << "\" does not say \"" << words << "\"");
+  };
+  refused(thin_planets("planet_N_per_m = \"rigid\""), "needs a bearing that gives way");
+  refused(thin_planets("planet_radial_N_per_m = [1e9, 1e9, 1e9, 1e9]"), "planet.bore");
+  refused(test::replaced(thin_planets(), "module_mm = 4\n", "module_mm = 4\nhelix_angle_deg = 5\n"),
+          "not modelled for helical teeth");
+  refused("model = \"resolved\"\n" + thin_planets(), "needs a whole planet");
+  refused("model = \"closed_form\"\n" + thin_planets(), "needs a whole planet");
+}
+
+// The load of the rollers adds up to the forces of both meshes, whichever mesh it was solved in; that the rim spreads
+// it is what thin rims are known for. Both solutions have the same loads on the planet but where the contact of the own
+// mesh is exact and that of the other one is not.
+BOOST_AUTO_TEST_CASE(a_run_with_planets_on_rollers) {
+  const test::TemporaryFolder folder("planets_on_rollers");
+  write_file(folder.path() / "scene.toml", thin_planets());
+  const auto outcome = test::run_program(folder.path(), "run scene.toml --out out");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  test::Verification record("Rollers of a thin planet", "the same planet solved in its other mesh; statics");
+  const auto summary = Json::parse(read_file(folder.path() / "out" / "summary.json"));
+  const auto& ring = summary["rings"]["ring"];
+  const double nominal = summary["operating_point"]["mean_mesh_force_N"];
+  const double both = 2 * nominal * std::cos(20 * units::deg);
+  for (const auto& file :
+       {folder.path() / "out" / "rollers_sun_planet.csv", folder.path() / "out" / "ring" / "rollers_ring_planet.csv"}) {
+    const auto csv = Csv::read(file);
+    const auto angle = csv.column("angle_deg"), load = csv.column("load_N_per_deg"), phase = csv.column("mesh_phase");
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const auto& row : csv.rows)
+      if (row[phase] == 0)
+        sum += row[load] * 15 * Eigen::Vector2d(std::cos(row[angle] * units::deg), std::sin(row[angle] * units::deg));
+    record.close("sum of the loads across the planet", "N", -sum.y(), both, 3e-3,
+                 "half-width of the contact over the base radius");
+    BOOST_TEST(std::abs(sum.x()) <= 5e-3 * both);
+  }
+  const auto of_mesh = [&](const char* mesh, const char* what) {
+    return ring["planet_rollers"][mesh][what].get<double>();
+  };
+  record.close("largest load, sun against ring mesh", "N/degree", of_mesh("sun_planet", "largest_N_per_deg"),
+               of_mesh("ring_planet", "largest_N_per_deg"), 0.02, "the other mesh's load at places of a flank");
+  BOOST_TEST(of_mesh("sun_planet", "load_zone_deg") > of_mesh("sun_planet", "load_zone_of_round_rim_deg"));
+  BOOST_TEST(of_mesh("sun_planet", "largest_over_round_rim") < 1);
+  const auto page = read_file(folder.path() / "out" / "report.html");
+  BOOST_TEST(page.find("Rollers around the bore") != std::string::npos);
+  const auto stress = read_file(folder.path() / "out" / "stress_sun_planet.csv");
+  BOOST_TEST(stress.find("planet rim") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

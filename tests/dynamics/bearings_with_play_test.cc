@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(both_methods_find_the_motion) {
   BOOST_REQUIRE(response.steady_difference.has_value());
   BOOST_TEST(*response.steady_difference <= 1e-3);
   BOOST_TEST(std::abs(response.energy.relative) <= 2e-3);
-  const auto pins = bearing_forces(stage, response.series);
+  const auto pins = annulus::dynamics::bearing_forces(stage, response.series);
   const double mean = stage.carrier_torque() / (stage.planets() * stage.carrier.radius);
   BOOST_TEST(std::abs(pins.tangential.mean() / mean - 1) <= 1e-3);
   const double centrifugal = stage.planet.mass * stage.carrier.radius * std::pow(stage.carrier_speed, 2);

@@ -235,6 +235,21 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
   return keys;
 }
 
+namespace {
+
+/// Planets of some spur stages stand on rollers, for which their bearing has a stiffness.
+void put_planets_on_rollers(Draw& draw, const std::string& model, GearSet& set) {
+  const bool modelled = set.draft.text_of("stage.kind") == "planetary" &&
+                        set.draft.find("stage.helix_angle_deg") == nullptr && model != "closed_form" &&
+                        model != "resolved";
+  if (!modelled || !draw.chance(0.12)) return;
+  set.draft.set("planet.bore", std::string("rollers"));
+  set.draft.set("supports.planet_N_per_m", rounded(set.scales.stiffness_N_per_m * draw.log_uniform(0.3, 10)));
+  set.chances["supports.planet_radial_N_per_m"] = set.chances["supports.planet_tangential_N_per_m"] = 0;
+}
+
+}  // namespace
+
 RandomScene random_scene(std::uint64_t seed) {
   Draw draw(seed);
   const double share = draw.uniform(0, 1);
@@ -246,6 +261,7 @@ RandomScene random_scene(std::uint64_t seed) {
   if (section == Section::plane) scene.model = draw.one_of<std::string>({"automatic", "plane", "plane", "closed_form"});
   if (section == Section::solid) scene.model = draw.one_of<std::string>({"automatic", "solid"});
   set.draft.set("model", scene.model);
+  put_planets_on_rollers(draw, scene.model, set);
   Walk(draw, set, app::schema(scene.kind)).run();
   scene.draft = std::move(set.draft);
   return scene;

@@ -102,14 +102,8 @@ class PlanetaryChecker : KeyChecks {
   void planet_on_rollers() {
     const std::string key = "planet.bore";
     if (scene_.planet.bore != BoreOn::rollers || !usable(key)) return;
-    if (!given("supports.planet_N_per_m"))
-      problem(key, "needs the stiffness of the planet's bearing: give supports.planet_N_per_m");
-    else if (usable("supports.planet_N_per_m") && scene_.supports.planet == rigid)
+    if (usable("supports.planet_N_per_m") && scene_.supports.planet == rigid)
       problem(key, "needs a bearing that gives way: supports.planet_N_per_m is rigid");
-    if (!scene_.supports.planet_radial.empty() || !scene_.supports.planet_tangential.empty())
-      problem(key,
-              "needs a bearing of one stiffness in all directions: leave supports.planet_radial_N_per_m and "
-              "supports.planet_tangential_N_per_m out");
     if (usable("stage.helix_angle_deg") && scene_.stage.helix_angle != 0)
       problem(key, "is not modelled for helical teeth; use \"hub\"");
     if (usable("model") && (scene_.fidelity == Fidelity::closed_form || scene_.fidelity == Fidelity::resolved))

@@ -99,6 +99,9 @@ Table planet_bore_key(const Condition& computed) {
           "the planet's bearing, whose stiffness and clearance are those of [supports]. Both meshes then bend the "
           "rim of the planet.")
       .only_if(computed, "a prescribed stiffness does not describe the body")
+      .only_if(given("supports.planet_N_per_m"), "the bearing of a planet on rollers needs a stiffness")
+      .refused_if(given("supports.planet_radial_N_per_m"), "the bearing has one stiffness in all directions")
+      .refused_if(given("supports.planet_tangential_N_per_m"), "the bearing has one stiffness in all directions")
       .fallback("hub", "a rim so thick that it stays round");
   return planet.done();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/radial_bearing.h"
 #include "core/units.h"
@@ -39,11 +40,16 @@ std::optional<RollerLoads> roller_loads(const Scene& scene, const geometry::Plan
   result.mesh_phase = (*top)[phase];
   result.largest = (*top)[load] / units::deg;
   const double pitch = 2 * std::numbers::pi / scene.planet.teeth;
+  std::vector<std::pair<double, double>> around;
   for (const auto& row : csv.rows) {
     if (row[phase] != result.mesh_phase || row[csv.column("ring_tooth")] != (*top)[csv.column("ring_tooth")]) continue;
-    result.angle.push_back(row[angle] * units::deg);
-    result.load.push_back(row[load] / units::deg);
+    around.emplace_back((row[angle] > 90 ? row[angle] - 360 : row[angle]) * units::deg, row[load] / units::deg);
     if (row[load] > 0) result.load_zone += pitch;
+  }
+  std::sort(around.begin(), around.end());
+  for (const auto& [at, carried] : around) {
+    result.angle.push_back(at);
+    result.load.push_back(carried);
   }
   const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
   const double outwards = std::sin(as) - std::sin(ar), across = std::cos(as) + std::cos(ar);

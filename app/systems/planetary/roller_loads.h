@@ -11,7 +11,7 @@ namespace annulus::app {
 /// What the rollers of a planet carry where they carry most, as one of its meshes was solved: at the nominal load, at
 /// angles from the direction away from the axis of the stage.
 struct RollerLoads {
-  std::vector<double> angle;        ///< rad, ascending
+  std::vector<double> angle;        ///< rad, ascending, from -270 to 90 degrees: about the middle of the load zone
   std::vector<double> load, rigid;  ///< N/rad: of the planet, and of one whose rim stays round
   double largest = 0, largest_rigid = 0;
   double load_zone = 0, rigid_load_zone = 0;  ///< rad, all angles at which rollers carry
