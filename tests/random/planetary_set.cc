@@ -83,6 +83,7 @@ void ring_values(Draw& draw, const Rack& rack, double root_mm, Section section, 
   set.chances["supports"] = 1;
   set.chances["supports.planet_N_per_m"] = 0.7;
   set.chances["supports.planet_clearance_um"] = 0.3;
+  set.chances["planet.bore"] = 0;  // see put_planets_on_rollers()
   // Phases that are stated: no samples are drawn of them.
   for (const auto* body :
        {"planet_eccentricity", "planet_pin_position_error", "sun_eccentricity", "sun_position_error",
