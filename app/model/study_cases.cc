@@ -140,8 +140,9 @@ std::vector<StudyCase> combinations(const std::vector<SweepInput>& inputs, const
 
 /// Supports, bearings, damping and backlash.
 bool often_assumed(const Parameter& p) {
-  return (p.table == "supports" && p.name.ends_with("_N_per_m")) || p.name.starts_with("bearing_") || p.key() == "dynamics.mesh_damping_ratio" ||
-         p.key() == "dynamics.support_damping_ratio" || p.key() == "dynamics.half_backlash_um";
+  return (p.table == "supports" && p.name.ends_with("_N_per_m")) || p.name.starts_with("bearing_") ||
+         p.key() == "dynamics.mesh_damping_ratio" || p.key() == "dynamics.support_damping_ratio" ||
+         p.key() == "dynamics.half_backlash_um";
 }
 
 /// Stiffnesses and inertias of a 2K-V stage.

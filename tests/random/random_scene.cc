@@ -24,11 +24,11 @@ double usual_number(Draw& draw, const Parameter& p, const Scales& scales) {
     const double sign = p.low < 0 && draw.chance(0.3) ? -1 : 1;
     return sign * scales.deflection_um * draw.log_uniform(0.05, 2);
   }
+  if (p.name == "protuberance_angle_deg") return draw.uniform(5, 13);
   if (ends_with(p, "_phase_deg") || ends_with(p, "angle_deg")) return draw.uniform(0, 360);
   if (ends_with(p, "_N_per_m")) return scales.stiffness_N_per_m * draw.log_uniform(0.03, 30);
   if (ends_with(p, "_Nm_per_rad")) return scales.torsional_Nm_per_rad * draw.log_uniform(0.3, 300);
   if (p.name == "protuberance_um") return 1e3 * scales.module_mm * draw.uniform(0.005, 0.03);
-  if (p.name == "protuberance_angle_deg") return draw.uniform(5, 15);
   if (ends_with(p, "chamfer_mm")) return scales.module_mm * draw.uniform(0.03, 0.12);
   if (p.name == "planet_pin_diameter_mm") return scales.module_mm * draw.uniform(6, 12);
   if (p.name == "planet_pin_length_mm") return scales.module_mm * draw.uniform(8, 25);
