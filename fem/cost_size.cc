@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fem/body/resolution.h"
+#include "fem/contact/planet_on_rollers.h"
 #include "fem/problem/solved_face.h"
 
 namespace annulus::fem {
@@ -53,6 +54,13 @@ double solid_unknowns(const LoadedMeshProblem& problem, const BodyResolution& r,
   return 3 * nodes;
 }
 
+/// Forces of the bed under a planet on rollers.
+double roller_patches(const LoadedMeshProblem& problem, int slices) {
+  if (!problem.planet_rollers) return 0;
+  const int teeth = problem.pair.pinion().teeth();
+  return static_cast<double>(teeth) * PlanetOnRollers::patches_per_tooth(teeth, slices) * slices;
+}
+
 }  // namespace
 
 int last_level(Fidelity fidelity) {
@@ -82,7 +90,7 @@ double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSett
 
 double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
   if (settings.fidelity == Fidelity::closed_form || settings.fidelity == Fidelity::plane)
-    return problem.structure.single_supports() + (problem.planet_rollers ? problem.pair.pinion().teeth() : 0);
+    return problem.structure.single_supports() + roller_patches(problem, 1);
   if (settings.fidelity != Fidelity::solid) return 0;
   const SupportSites sites = support_sites(problem);
   const int cells = solid_resolution(level, settings.degree, problem.pair.overlap_ratio()).face_cells;
@@ -91,7 +99,7 @@ double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings
       solved_face(problem, settings).edges(helical ? support_slices(problem, cells) : 2 * cells).size() - 1;
   const auto& [below, above] = problem.wheel_overhang;
   const auto slices = of_face + (below > 0 ? 1 : 0) + (above > 0 && !solved_face(problem, settings).half ? 1 : 0);
-  double forces = 0;
+  double forces = roller_patches(problem, static_cast<int>(of_face));
   for (const auto& site : sites.sites) forces += static_cast<double>(site.directions.size() * slices);
   return forces;
 }

@@ -137,9 +137,12 @@ Csv roller_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   const double side = model.problem->pair.internal() ? -1 : 1;
   at_nominal_load(model, solved, [&](const fem::LoadedPosition& p) {
     std::vector<std::pair<double, double>> around;
-    for (std::size_t tooth = 0; tooth < p.rollers.size(); ++tooth) {
-      const double angle = std::remainder(p.planet_angle + static_cast<double>(tooth) * pitch, 2 * std::numbers::pi);
-      around.emplace_back(side * angle / units::deg, p.rollers[tooth] / (pitch / units::deg));
+    const auto patches = static_cast<double>(p.rollers.size());
+    const double spacing = 2 * std::numbers::pi / patches;
+    for (std::size_t i = 0; i < p.rollers.size(); ++i) {
+      const double behind = (static_cast<double>(i) + 0.5) * spacing - pitch / 2;
+      const double angle = std::remainder(p.planet_angle + behind, 2 * std::numbers::pi);
+      around.emplace_back(side * angle / units::deg, p.rollers[i] / (spacing / units::deg));
     }
     std::sort(around.begin(), around.end());
     for (const auto& [angle, load] : around)

@@ -178,7 +178,8 @@ void declare_flanks(Declarations<Section>& t, Flanks flanks) {
 /// bore_diameter_mm, required where a mesh of this gear is computed.
 template <class Section>
 void declare_bore(Declarations<Section>& t, const Condition& computed) {
-  t.key("bore_diameter_mm", &Section::bore_diameter, "Diameter of the bore, where the body meets a rigid hub.")
+  t.key("bore_diameter_mm", &Section::bore_diameter,
+        "Diameter of the bore, where the body ends: at a rigid hub, or at the rollers of a planet.")
       .above(0, 1e5)
       .required_if(computed, "a computed body ends at its bore; or prescribe the stiffness of the mesh");
 }

@@ -12,17 +12,14 @@ namespace annulus::app {
 
 namespace {
 
-/// Displacement of a gear from its nominal position, in modules: flanks overlap by two modules, and half of one reduces
-/// the contact ratio to one.
-constexpr double largest_gear_displacement = 0.5;
 /// Stiffness of a mesh per unit of face width, in Young's moduli: 20 N/(mm um) for steel, the usual mean (ISO 6336-1).
 constexpr double usual_mesh_stiffness = 0.1;
 
 constexpr const char* no_engagement = "beyond that the teeth hardly engage";
 
-double displacement_limit(const Scene& scene) { return largest_gear_displacement * scene.stage.module; }
-
 }  // namespace
+
+double displacement_limit(const Scene& scene) { return largest_gear_displacement * scene.stage.module; }
 
 std::string length_mm(double length) { return to_text(length / units::mm, 7) + " mm"; }
 

@@ -17,6 +17,11 @@ inline constexpr double diameter_rounding = 1e-9;
 /// in the teeth.
 inline constexpr double largest_deflection = 0.1;
 
+/// Displacement of a gear from its nominal position, in modules: flanks overlap by two modules, and half of one reduces
+/// the contact ratio to one.
+inline constexpr double largest_gear_displacement = 0.5;
+[[nodiscard]] double displacement_limit(const Scene& scene);  ///< the same, m
+
 /// Least thickness of a rim behind the root, m.
 [[nodiscard]] double least_rim(const Scene& scene);
 /// "a computed mesh needs 1.2 mm = 0.3 modules of rim behind the root"

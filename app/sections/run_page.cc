@@ -147,13 +147,15 @@ Section fields_section(const NamedMeshes& meshes) {
   std::vector<DeformedMesh*> views;
   for (auto& picture : figure.list) views.push_back(&std::get<DeformedMesh>(picture.drawn));
   share_colours(views);
-  section.blocks = paragraph(
-                       "Both gears in mesh, with this mesh alone at the nominal load. The position is that with the "
-                       "largest root stress of the second gear. Displacements are exaggerated. Displacements of a gear "
-                       "on a hub are relative to the hub. Grey: outline without load. All pictures have one colour "
-                       "scale. The " +
-                       code("_field.vtu") + " files contain more teeth, for ParaView.") +
-                   figure;
+  section.blocks =
+      paragraph(
+          "Both gears in mesh, with this mesh alone at the nominal load. The position is that with the "
+          "largest root stress of the second gear. Displacements are exaggerated. Displacements of a gear "
+          "on a hub are relative to the hub. A planet on rollers is loaded by its other mesh as well, and "
+          "is shown without its motion in the bearing. Grey: outline without load. All pictures have one colour "
+          "scale. The " +
+          code("_field.vtu") + " files contain more teeth, for ParaView.") +
+      figure;
   return section;
 }
 

@@ -57,6 +57,11 @@ int LumpedSystem::find(const std::string& name) const {
   return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
 }
 
+bool LumpedSystem::is_bearing(int mesh) const {
+  return std::any_of(bearings_.begin(), bearings_.end(),
+                     [mesh](const auto& bearing) { return bearing.first == mesh || bearing.second == mesh; });
+}
+
 Eigen::VectorXd LumpedSystem::mesh_vector(int mesh, double t) const {
   const MeshElement& element = meshes_[mesh];
   Eigen::VectorXd b = Eigen::VectorXd::Zero(dofs());

@@ -136,6 +136,7 @@ class LumpedSystem {
   [[nodiscard]] bool has_moving_vectors() const;                                   ///< does any b change in time?
   [[nodiscard]] const std::vector<MeshCoupling>& couplings() const { return couplings_; }
   [[nodiscard]] const std::vector<BearingElement>& bearings() const { return bearings_; }
+  [[nodiscard]] bool is_bearing(int mesh) const;  ///< whether a mesh is a component of a bearing
   /// Whether the force of some mesh depends on the deflection of another.
   [[nodiscard]] bool has_coupled_meshes() const { return !couplings_.empty() || !bearings_.empty(); }
 

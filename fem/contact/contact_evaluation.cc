@@ -121,6 +121,12 @@ LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup, co
     const auto bearing = bodies.rollers->bearing_motion(load, row_forces(bodies, setup, planet, solution), row_change);
     result.entry.lte -= bearing.transmission_error;
     compliance = change.transmission_error - bearing.slope;
+    if (!(compliance > 0))
+      throw InputError(fmt::format(
+          "under {:.4g} N the rollers of the planet, with {:.4g} um of radial clearance, carry over so little "
+          "of the bore that a round rim would give way more than this one: reduce the clearance of the "
+          "planets' bearings, raise the load, or let the planets stand on a hub",
+          load, 2e6 * bodies.rollers->play()));
   }
   double unloaded = pairs.front().smallest_gap;
   for (const auto& p : pairs) unloaded = std::min(unloaded, p.smallest_gap);

@@ -21,14 +21,22 @@ PlanetOnRollers::PlanetOnRollers(const PlanetRollers& rollers, SupportPlan bed, 
   stiffness_ = row_.plan().own_compliance().diagonal().head(forces).cwiseInverse();
 }
 
+int PlanetOnRollers::patches_per_tooth(int teeth, int slices) {
+  constexpr int most = 400, most_per_tooth = 4;
+  return std::clamp(most / (teeth * slices), 1, most_per_tooth);
+}
+
 SupportPlan PlanetOnRollers::bed(const PlanetRollers& rollers, int teeth, std::vector<double> slice_edges,
                                  bool half_face) {
   // A rigid rim that moves by d presses on half of the bed, by d cos t: the sum of k d cos^2 t over it is N k d / 4.
-  const double patch = 4 * rollers.stiffness / teeth, pitch = 2 * M_PI / teeth;
+  const int per_tooth = patches_per_tooth(teeth, static_cast<int>(slice_edges.size()) - 1);
+  const int patches = teeth * per_tooth;
+  const double patch = 4 * rollers.stiffness / patches, spacing = 2 * M_PI / patches;
+  const double first = -(per_tooth - 1) / 2.0 * spacing;
   SupportSites sites;
   sites.against_turning = true;
-  for (int tooth = 0; tooth < teeth; ++tooth)
-    sites.sites.push_back({tooth * pitch, pitch / 2, false, {{-1, 0, true, rollers.play, patch}}});
+  for (int i = 0; i < patches; ++i)
+    sites.sites.push_back({first + i * spacing, spacing / 2, false, {{-1, 0, true, rollers.play, patch}}});
   SupportPlan plan(std::move(sites), teeth, std::move(slice_edges), half_face);
   plan.apply_on_other_flank(places);
   return plan;
@@ -80,31 +88,52 @@ PlanetOnRollers::Motion PlanetOnRollers::bearing_motion(double load, const Eigen
   const Eigen::Vector2d force = on_bed(forces), along = of_mesh(forces) / load,
                         turning = (of_mesh(change) - along) / load;
 
-  // Newton's method; the potential is convex. It starts where the law of the bearing puts the planet.
-  const double play = row_.gap()[0];
-  Eigen::Vector2d motion = bearing_.distance(force.norm()) * force.normalized();
-  constexpr int steps = 100;
+  Eigen::Matrix2d stiffness;
+  const Eigen::Vector2d motion = round_rim(force, stiffness);
+  return {along.dot(motion), along.dot(stiffness.inverse() * on_bed(change)) + turning.dot(motion)};
+}
+
+void PlanetOnRollers::press(const Eigen::Vector2d& motion, const Eigen::Vector2d& force, Eigen::Vector2d& residual,
+                            Eigen::Matrix2d& stiffness) const {
+  constexpr double unloaded = 1e-7;  // of the stiffness, as in a RadialBearing
+  residual = force;
+  stiffness.setZero();
+  for (Eigen::Index i = 0; i < stiffness_.size(); ++i) {
+    const Eigen::Vector2d direction = directions_.row(i);
+    const double moved = direction.dot(motion), pressed = -moved - play();
+    const double k = stiffness_[i];
+    residual -= unloaded * k * moved * direction;
+    stiffness += unloaded * k * direction * direction.transpose();
+    if (pressed <= 0) continue;
+    residual += k * pressed * direction;
+    stiffness += k * direction * direction.transpose();
+  }
+}
+
+Eigen::Vector2d PlanetOnRollers::round_rim(const Eigen::Vector2d& force, Eigen::Matrix2d& stiffness) const {
+  // Newton's method with a search along its steps: the potential is convex. It starts where the law puts the planet.
+  Eigen::Vector2d motion = bearing_.distance(force.norm()) * force.normalized(), residual;
+  press(motion, force, residual, stiffness);
+  constexpr int steps = 100, halves = 60;
+  constexpr double accuracy = 1e-11;
   for (int step = 0; step < steps; ++step) {
-    Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d residual = force;
-    for (Eigen::Index i = 0; i < stiffness_.size(); ++i) {
-      const Eigen::Vector2d direction = directions_.row(i);
-      const double pressed = -direction.dot(motion) - play;
-      if (pressed <= 0) continue;
-      residual += stiffness_[i] * pressed * direction;
-      stiffness += stiffness_[i] * direction * direction.transpose();
+    if (residual.norm() <= accuracy * force.norm()) return motion;
+    const Eigen::Vector2d change = stiffness.inverse() * residual, from = motion;
+    const double slope = change.dot(residual);
+    double share = 1, low = 0, high = 2;
+    for (int half = 0; half < halves; ++half) {
+      motion = from + share * change;
+      press(motion, force, residual, stiffness);
+      const double here = change.dot(residual);
+      if (std::abs(here) <= 0.9 * slope) break;
+      (here > 0 ? low : high) = share;
+      share = (low + high) / 2;
     }
-    const Eigen::Matrix2d compliance = stiffness.inverse();
-    if (!compliance.allFinite()) break;
-    const Eigen::Vector2d moved = compliance * residual;
-    motion += moved;
-    if (moved.norm() <= 1e-13 * motion.norm())
-      return {along.dot(motion), along.dot(compliance * on_bed(change)) + turning.dot(motion)};
   }
   throw SolverError(
       fmt::format("a planet with a rigid rim on its rollers is not in equilibrium under {:.4g} N, with "
                   "{:.4g} m of play",
-                  force.norm(), play));
+                  force.norm(), play()));
 }
 
 }  // namespace annulus::fem

@@ -23,11 +23,16 @@ class PlanetOnRollers {
   /// `planet` was condensed for the arcs of bed() and for `places`; it is referred to.
   PlanetOnRollers(const PlanetRollers& rollers, SupportPlan bed, const GearBody& planet);
 
-  /// The bed of a planet: a patch behind every tooth, on its own unilateral in every slice.
+  /// The bed of a planet: up to four patches behind every tooth, on their own unilateral in every slice. Of one patch
+  /// the load zone would have to be some teeth wide.
   [[nodiscard]] static SupportPlan bed(const PlanetRollers& rollers, int teeth, std::vector<double> slice_edges,
                                        bool half_face);
 
+  /// Patches behind every tooth.
+  [[nodiscard]] static int patches_per_tooth(int teeth, int slices);
+
   [[nodiscard]] const SupportRow& row() const { return row_; }
+  [[nodiscard]] double play() const { return row_.gap()[0]; }  ///< m
   /// Forces that the other mesh applies to the planet whose tooth 0 stands at `angle` (rad) in the frame of the solve,
   /// per N of its load: as the last ones of row().
   [[nodiscard]] Eigen::VectorXd partner_forces(double angle) const;
@@ -41,6 +46,12 @@ class PlanetOnRollers {
   [[nodiscard]] Motion bearing_motion(double load, const Eigen::VectorXd& forces, const Eigen::VectorXd& change) const;
 
  private:
+  /// Bed under a motion of a round rim: what is left of a force, and its tangent.
+  void press(const Eigen::Vector2d& motion, const Eigen::Vector2d& force, Eigen::Vector2d& residual,
+             Eigen::Matrix2d& stiffness) const;
+  /// The motion of a round rim under a force; `stiffness`: there, N/m.
+  [[nodiscard]] Eigen::Vector2d round_rim(const Eigen::Vector2d& force, Eigen::Matrix2d& stiffness) const;
+
   FlankContact partner_;
   RadialBearing bearing_;
   const GearBody& planet_;

@@ -89,8 +89,11 @@ std::vector<BodyField> worst_fields(const LoadedMeshProblem& problem, const Mesh
     fields.back().body = name;
     fields.back().position = worst;
   };
+  // Without its motion in the bearing, which would hide how it deforms.
+  Eigen::VectorXd planet_rigid = forces.planet_rigid;
+  if (planet_rigid.size() > 0) planet_rigid.head<2>().setZero();
   add("planet", bodies.planet_source, *bodies.planet, problem.materials.planet, forces.planet,
-      bodies.rollers ? &bodies.rollers->row() : nullptr, forces.rollers, forces.planet_rigid);
+      bodies.rollers ? &bodies.rollers->row() : nullptr, forces.rollers, planet_rigid);
   add("wheel", bodies.wheel_source, *bodies.wheel, problem.materials.wheel, forces.wheel, bodies.supports.get(),
       forces.supports, forces.rigid);
   return fields;

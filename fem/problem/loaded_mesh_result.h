@@ -61,8 +61,9 @@ struct LoadedPosition {
   bool tip_edge_contact = false;  ///< the peak pressure stands at a tip edge: singular, not to be compared
   std::vector<PinState> pins;
   std::vector<PinState> housing;  ///< patches of the housing bore, one behind every tooth; empty without
-  /// Of a planet on rollers: force of the bed behind every tooth, N, and the angle of tooth 0 against the direction
-  /// from the axis of the stage to the planet, rad, in the frame of the solve.
+  /// Of a planet on rollers: forces of the equal patches around its bore, N, as many behind every tooth, those of tooth
+  /// 0 first; and the angle of tooth 0 against the direction from the axis of the stage to the planet, rad, in the
+  /// frame of the solve.
   std::vector<double> rollers;
   double planet_angle = 0;
   std::vector<double> line_load;        ///< N/m, of all pairs together, per slice of the face width from low to high z

@@ -163,6 +163,7 @@ BOOST_AUTO_TEST_CASE(coupled_meshes) {
 
 BOOST_AUTO_TEST_CASE(names_and_groups) {
   BOOST_TEST(element_group("planet12_bearing_radial") == "planet_bearing");
+  BOOST_TEST(element_group("planet12_bearing_across") == "planet_bearing");
   BOOST_TEST(element_group("sun_planet3") == "sun_planet");
   BOOST_TEST(element_group("ring_support_u") == "ring_support");
   const auto stage = stages::ring_paper();

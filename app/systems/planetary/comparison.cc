@@ -219,7 +219,7 @@ PathStiffness path_stiffness(const RunResult& result, std::size_t ring) {
   const auto& set = result.geometry.rings.at(ring).set;
   const double sun = 1 / result.sun_mesh.mean_stiffness().value;
   const double mesh = 1 / result.rings.at(ring).mesh.mean_stiffness().value;
-  const double bearing = bearing_compliance(result.scene, set);
+  const double bearing = bearing_compliance(result.scene, set, result.geometry.operating_point.mean_mesh_force);
   const double compliance = sun + mesh + bearing;
   return {1 / compliance, mesh / compliance, sun / compliance, bearing / compliance};
 }

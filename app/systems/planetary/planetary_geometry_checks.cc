@@ -81,8 +81,67 @@ void check_helical_faces(const Scene& scene, const GearGeometry& geometry) {
   }
 }
 
+/// The pin of each planet by itself.
+void check_pin(const Scene& scene, double force) {
+  const auto& s = scene.supports;
+  if (s.planet_pin == PinMounting::unbending) return;
+  const double diameter = *s.pin_diameter;
+  if (scene.planet.bore_diameter && diameter >= *scene.planet.bore_diameter)
+    throw InputError(fmt::format("supports.planet_pin_diameter_mm = {}: does not fit into the planet's bore of {} mm",
+                                 to_text(diameter / units::mm, 6),
+                                 to_text(*scene.planet.bore_diameter / units::mm, 6)));
+  const double deflection = force / pin_stiffness(scene), limit = displacement_limit(scene);
+  if (deflection <= limit) return;
+  throw InputError(fmt::format(
+      "supports.planet_pin_diameter_mm = {}: a pin of this diameter and {} mm length deflects under the load "
+      "of {} N by {} mm; at most {} mm is possible, {} of the module: use a thicker or a shorter pin",
+      to_text(diameter / units::mm, 6), to_text(*s.pin_length / units::mm, 6), to_text(force, 3),
+      to_text(deflection / units::mm, 3), to_text(limit / units::mm, 3), largest_gear_displacement));
+}
+
+/// The play of planet bearings, and that more than a roller carries.
+void check_clearance(const Scene& scene, double force) {
+  const auto& s = scene.supports;
+  if (s.planet_clearance == 0) return;
+  const auto shown = fmt::format("supports.planet_clearance_um = {}", to_text(s.planet_clearance / units::um, 6));
+  const double limit = displacement_limit(scene);
+  if (s.planet_clearance / 2 > limit)
+    throw InputError(
+        fmt::format("{}: half of it moves a planet by more than {} of the module: at most {} µm is possible", shown,
+                    largest_gear_displacement, to_text(2 * limit / units::um, 4)));
+  // The bed of a planet on rollers has patches of some degrees, and its table has loads below this one.
+  const bool bed = scene.planet.bore == BoreOn::rollers;
+  const double least = (bed ? 45 : 10) * units::deg, zone = bearing_law(scene).load_zone(force);
+  if (zone >= least) return;
+  throw InputError(fmt::format(
+      "{}: under {} N the rollers of a bearing of {} N/m carry over {:.2g} degrees; the law of a bearing of "
+      "many rollers needs {:.2g} degrees{}: reduce the clearance or supports.planet_N_per_m, or raise the load",
+      shown, to_text(force, 3), to_text(s.planet, 4), zone / units::deg, least / units::deg,
+      bed ? " where the bore of the planets is the raceway (planet.bore)" : ""));
+}
+
+/// The sun mesh is solved once, with the ring mesh of the first ring as the other mesh of its planets.
+void check_rings_of_planets_on_rollers(const Scene& scene, const GearGeometry& geometry) {
+  if (scene.planet.bore != BoreOn::rollers) return;
+  const auto& first = geometry.rings.front();
+  for (const auto& ring : geometry.rings) {
+    const double angle = ring.set.ring_mesh().working_pressure_angle(),
+                 of_first = first.set.ring_mesh().working_pressure_angle();
+    if (std::abs(angle - of_first) <= 1e-9) continue;
+    throw InputError(fmt::format(
+        "planet.bore = rollers: the sun mesh is solved once for all rings, with the force of the ring mesh on "
+        "the planet; the rings '{}' and '{}' have working pressure angles of {:.6g} and {:.6g} degrees: use a "
+        "scene for each",
+        first.name, ring.name, of_first / units::deg, angle / units::deg));
+  }
+}
+
 void check_planetary_bearings(const Scene& scene, const GearGeometry& geometry) {
-  const auto s = supports_with_pins(scene);
+  const auto& s = scene.supports;
+  const double pin_force =
+      geometry.operating_point.mean_mesh_force * pin_force_per_mesh_force(geometry.rings.front().set);
+  check_pin(scene, pin_force);
+  check_clearance(scene, pin_force);
   const double mesh = geometry.operating_point.mean_mesh_force;
   check_bearing(scene, "supports.planet_N_per_m", s.planet, 2 * mesh);
   for (const auto& [key, bearings] : {std::pair{"supports.planet_radial_N_per_m", &s.planet_radial},
@@ -110,6 +169,7 @@ void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry) 
   const bool ring = scene.ring_planet.stiffness == StiffnessShape::computed;
   if (sun) check_bore(scene, "sun", scene.sun, geometry.sun_mesh().wheel());
   if (sun || ring) check_bore(scene, "planet", scene.planet, geometry.sun_mesh().pinion());
+  check_rings_of_planets_on_rollers(scene, geometry);
   for (std::size_t i = 0; ring && i < scene.rings.size(); ++i)
     check_ring_rim(scene, scene.rings[i], geometry.rings.at(i));
 

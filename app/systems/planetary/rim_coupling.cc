@@ -39,7 +39,8 @@ double highest_frequency(const GearGeometry& geometry) {
 
 /// Mesh and planet bearing in series; 1/K_path of the stage without its sun mesh, hence rather too small.
 double path_compliance(const Scene& scene, const GearGeometry& geometry, double mesh_compliance) {
-  return mesh_compliance + bearing_compliance(scene, geometry.rings.front().set);
+  return mesh_compliance +
+         bearing_compliance(scene, geometry.rings.front().set, geometry.operating_point.mean_mesh_force);
 }
 
 /// Ring teeth by which each planet stands ahead of the first.

@@ -39,15 +39,15 @@ std::optional<RollerLoads> roller_loads(const Scene& scene, const geometry::Plan
   RollerLoads result;
   result.mesh_phase = (*top)[phase];
   result.largest = (*top)[load] / units::deg;
-  const double pitch = 2 * std::numbers::pi / scene.planet.teeth;
   std::vector<std::pair<double, double>> around;
   for (const auto& row : csv.rows) {
     if (row[phase] != result.mesh_phase || row[csv.column("ring_tooth")] != (*top)[csv.column("ring_tooth")]) continue;
     around.emplace_back((row[angle] > 90 ? row[angle] - 360 : row[angle]) * units::deg, row[load] / units::deg);
-    if (row[load] > 0) result.load_zone += pitch;
   }
   std::sort(around.begin(), around.end());
+  const double spacing = 2 * std::numbers::pi / static_cast<double>(around.size());
   for (const auto& [at, carried] : around) {
+    if (carried > 0) result.load_zone += spacing;
     result.angle.push_back(at);
     result.load.push_back(carried);
   }

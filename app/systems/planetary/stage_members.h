@@ -17,7 +17,7 @@ ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bea
                 sun_tooth_errors, ring_tooth_errors, sun_working_angle, ring_working_angle, sun_teeth, planet_teeth,
                 ring_teeth, sun_mesh, ring_mesh, sun_phase_lag, ring_phase_lag, ring_tooth_offset, ring_coupling,
                 sun_half_backlash, ring_half_backlash, mesh_damping_ratio, support_damping_ratio,
-                damping_without_contact, carrier_speed, ring_speed, sun_torque, held, rotating_frame);
+                damping_without_contact, carrier_speed, ring_speed, bearing_speed, sun_torque, held, rotating_frame);
 
 ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
 ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_factor, mean_force, contact_loss,

@@ -77,16 +77,28 @@ SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring
   return s;
 }
 
-double bearing_compliance(const Scene& scene, const geometry::PlanetarySet& set) {
+RadialBearing bearing_law(const Scene& scene) {
+  return {scene.supports.planet, scene.supports.planet_clearance / 2, pin_stiffness(scene)};
+}
+
+double pin_force_per_mesh_force(const geometry::PlanetarySet& set) {
+  const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
+  return std::hypot(std::sin(as) - std::sin(ar), std::cos(as) + std::cos(ar));
+}
+
+double bearing_compliance(const Scene& scene, const geometry::PlanetarySet& set, double mesh_force) {
   const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
   const double tangential = std::pow(std::cos(as) + std::cos(ar), 2), radial = std::pow(std::sin(as) - std::sin(ar), 2);
+  if (scene.supports.planet_clearance > 0) {
+    const double force = mesh_force * pin_force_per_mesh_force(set);
+    return (tangential + radial) * bearing_law(scene).distance(force) / force;
+  }
   const auto s = supports_with_pins(scene);
   double sum = 0;
   for (int n = 0; n < set.planets(); ++n)
     sum += tangential / s.planet_bearing(&SupportInput::planet_tangential, static_cast<std::size_t>(n)) +
            radial / s.planet_bearing(&SupportInput::planet_radial, static_cast<std::size_t>(n));
-  // In a bearing with clearance the pin stands apart.
-  return sum / set.planets() + (s.planet_clearance > 0 ? (tangential + radial) / pin_stiffness(scene) : 0);
+  return sum / set.planets();
 }
 
 }  // namespace annulus::app

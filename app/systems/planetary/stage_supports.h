@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/scene/scene.h"
+#include "core/radial_bearing.h"
 #include "geometry/planetary.h"
 #include "geometry/power_flow.h"
 
@@ -22,8 +23,14 @@ namespace annulus::app {
 /// of one mesh, N/m.
 [[nodiscard]] SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring_mesh);
 
-/// What the bearing adds to the compliance of a planet's path from sun to ring with all centres held, m/N, the mean of
-/// the planets: (cos a_s + cos a_r)^2 over the tangential and (sin a_s - sin a_r)^2 over the radial stiffness.
-[[nodiscard]] double bearing_compliance(const Scene& scene, const geometry::PlanetarySet& set);
+/// What bearing and pin add to the compliance of a planet's path from sun to ring with all centres held, m/N, the mean
+/// of the planets: (cos a_s + cos a_r)^2 over the tangential and (sin a_s - sin a_r)^2 over the radial stiffness. With
+/// clearance the motion over the force under `mesh_force` (N) in every mesh.
+[[nodiscard]] double bearing_compliance(const Scene& scene, const geometry::PlanetarySet& set, double mesh_force);
+
+/// The law of planet bearings with clearance, with their pins.
+[[nodiscard]] RadialBearing bearing_law(const Scene& scene);
+/// N, of each planet on its pin per N of its meshes, without its centrifugal force.
+[[nodiscard]] double pin_force_per_mesh_force(const geometry::PlanetarySet& set);
 
 }  // namespace annulus::app

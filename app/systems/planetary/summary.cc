@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
@@ -103,8 +104,9 @@ Json ring_json(const RunResult& result, std::size_t number) {
                         {"reciprocity_relative", json_number(worst(ring.mesh, sun_mesh, "reciprocity_relative"))}};
   if (const auto readings = gauge_readings(result.scene, result.geometry.rings[number].set, ring.mesh))
     json["strain_gauges"] = to_json(result.scene, *readings);
-  for (const auto& [name, mesh] : {std::pair{"sun_planet", &sun_mesh}, {"ring_planet", &ring.mesh}})
-    if (const auto loads = roller_loads(result.scene, result.geometry.rings[number].set, *mesh))
+  for (const auto& [name, mesh, made] : {std::tuple{"sun_planet", &sun_mesh, &result.geometry.rings.front()},
+                                         {"ring_planet", &ring.mesh, &result.geometry.rings[number]}})
+    if (const auto loads = roller_loads(result.scene, made->set, *mesh))
       json["planet_rollers"][name] = {{"largest_N_per_deg", loads->largest * units::deg},
                                       {"largest_over_round_rim", loads->largest / loads->largest_rigid},
                                       {"load_zone_deg", loads->load_zone / units::deg},

@@ -87,6 +87,7 @@ double participation(const PlanetaryStage& stage, const LumpedSystem& system, co
 std::vector<RotatingMode> modes_at_speed(const PlanetaryStage& stage) {
   const auto turning = rotating_modes(stage, ModeDamping::damped);
   PlanetaryStage still = stage;
+  still.bearing_speed = stage.carrier_speed;
   still.carrier_speed = still.ring_speed = 0;
   const auto rest = rotating_modes(still, ModeDamping::undamped);
   std::vector<RotatingMode> modes;

@@ -143,7 +143,7 @@ PlanetBearing PlanetaryStage::planet_bearing(int n) const {
 }
 
 Eigen::Vector2d PlanetaryStage::mean_pin_force() const {
-  const double force = mean_mesh_force(), speed = rotating_frame ? carrier_speed : 0;
+  const double force = mean_mesh_force(), speed = rotating_frame ? bearing_speed.value_or(carrier_speed) : 0;
   return {force * (std::sin(sun_working_angle) - std::sin(ring_working_angle)) +
               planet.mass * carrier.radius * speed * speed,
           force * (std::cos(sun_working_angle) + std::cos(ring_working_angle))};

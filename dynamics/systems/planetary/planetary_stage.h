@@ -113,6 +113,8 @@ struct PlanetaryStage {
   /// Omega_c and Omega_r, rad/s, counter-clockwise; the sun's follows (geometry/power_flow.h). Where the carrier turns
   /// clockwise against the ring, the meshes run through their cycles backwards: the carrier then drives, or the ring.
   double carrier_speed = 0, ring_speed = 0;
+  /// Omega_c at whose centrifugal force bearings with play have the stiffness of small motions. Absent: carrier_speed.
+  std::optional<double> bearing_speed;
   double sun_torque = 0;  ///< T_s, N m, counter-clockwise; T_r = T_s z_r/z_s and T_c = -T_s (1 + z_r/z_s)
   /// The member whose torsional support bears its torque; the torques of the others act as loads. None: a differential.
   std::optional<geometry::StageMember> held = geometry::StageMember::ring;
