@@ -137,6 +137,7 @@ Csv roller_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   const double side = model.problem->pair.internal() ? -1 : 1;
   at_nominal_load(model, solved, [&](const fem::LoadedPosition& p) {
     std::vector<std::pair<double, double>> around;
+    if (p.rollers.empty()) return;
     const auto patches = static_cast<double>(p.rollers.size());
     const double spacing = 2 * std::numbers::pi / patches;
     for (std::size_t i = 0; i < p.rollers.size(); ++i) {
