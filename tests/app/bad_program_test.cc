@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(bad_scenes_of_every_class) {
   refuse(with("power_kW", "powr_kW"), "did you mean stage.power_kW?");
   refuse(with("power_kW = 2958.8", "power_kW = nan"), "scene.toml:9:1: stage.power_kW = nan");
   refuse(with("[15, 36, 17, 38, 19]", "[15, 36]"), "2 values for 5 planets");
-  refuse(with("sun_speed_rpm = 1128", "sun_speed_rpm = 1\ncarrier_speed_rpm = 1"), "give either");
+  refuse(with("sun_speed_rpm = 1128", "sun_speed_rpm = 1\ncarrier_speed_rpm = 1"), "give one of");
   refuse(with("teeth = 48", "teeth = 47"), "scene.toml:");  // cannot be assembled
   refuse(with("name = \"held\"", "name = \"../held\""), "ring.name = ../held");
   refuse(with("name = \"held\"", "name = \"/tmp/held\""), "ring.name = /tmp/held");
@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(too_much_is_refused_with_the_figures) {
   refuse(test::quick_scene() +
              "[optimise]\nobjective = [\"sun_planet_load_sharing_instantaneous\"]\ngenerations = 100000\npopulation = "
              "100000\n[[optimise.variable]]\ninput = \"dynamics.mesh_damping_ratio\"\nlow = 0.05\nhigh = 0.06\n",
-         "", {"the limit is 7 days (--max-time)", "into the [optimise]: it asks for 20000200000 responses"});
+         "", {"the limit is 7 days (--max-time)", "for the [optimise]: it asks for 20000200000 responses"});
   refuse(test::quick_scene() + "[monte_carlo]\nsamples = 1000000\n", " --max-memory 200MB",
          {"of memory, the limit is 200 MB (--max-memory)", "[monte_carlo]: it asks for 1000000 responses"});
   // A mesh: the keys that make it so large.

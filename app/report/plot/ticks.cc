@@ -57,7 +57,8 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
   const double largest = std::max(std::abs(ticks.front()), std::abs(ticks.back()));
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-6)), 0, 12);
-  const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(largest / step) - 1e-6)), 0, 15);
+  const int digits =
+      largest > 0 ? std::clamp(static_cast<int>(std::ceil(std::log10(largest / step) - 1e-6)), 0, 15) : 0;
   const bool powers = largest >= 1e6 || step < 1e-5;
   for (const double t : ticks)
     labels.push_back(!powers ? fmt::format("{:.{}f}", t, decimals) : t == 0 ? "0" : fmt::format("{:.{}e}", t, digits));

@@ -132,7 +132,7 @@ class ShiftResolver : KeyChecks {
       const double reference = p.module * p.teeth / (2 * std::cos(p.helix_angle));
       const double base = reference * mate.base_radius() / mate.reference_radius();
       const double a = scene_.stage.centre_distance, difference = base - mate.base_radius();
-      if (!(a > difference)) return;  // refused with its reason where the gears are paired
+      if (!(a > std::abs(difference))) return;  // refused with its reason where the gears are paired
       const double form = std::sqrt(mate.form_radius() * mate.form_radius() - mate.base_radius() * mate.base_radius());
       const double least = std::hypot(base, std::sqrt(a * a - difference * difference) + form);
       const double usual = reference - p.module * (1 - p.profile_shift);
