@@ -14,7 +14,7 @@ namespace {
 
 /// Share of the stiffness that is left within the play.
 constexpr double unloaded = 1e-7;
-/// Steps below this share are no longer told from rounding.
+/// Steps below this share are lost in rounding.
 constexpr double rounding = 1e-15;
 
 /// z - sin z cos z and z + sin z cos z of the half load zone z at p / d. The difference of two small numbers loses
