@@ -35,6 +35,8 @@ BOOST_AUTO_TEST_CASE(ticks_are_round_and_inside) {
     const auto labels = app::tick_labels(ticks);
     for (std::size_t i = 1; i < labels.size(); ++i) BOOST_TEST(labels[i] != labels[i - 1]);
   }
+  for (const double low : {0.12, 1.3, -0.87, 2.1e5})
+    BOOST_TEST(!app::nice_ticks(low, low + 0.4 * std::abs(low), 1).empty(), low);
   BOOST_TEST(app::nice_ticks(1, 1, 5).size() == 1U);
 }
 

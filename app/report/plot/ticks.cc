@@ -33,7 +33,8 @@ std::vector<double> nice_ticks(double low, double high, int count) {
   // Multiples of the step, so that rounding does not add up; the slack admits an end that is off by an ulp.
   for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
     ticks.push_back(i == 0 ? 0.0 : i * step);
-  return ticks;
+  // A step as long as the range may have no multiple in it.
+  return ticks.empty() ? nice_ticks(low, high, count + 1) : ticks;
 }
 
 std::vector<double> log_ticks(double low, double high) {
