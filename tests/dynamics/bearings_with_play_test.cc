@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(unloaded_planets_have_a_place) {
     const auto path = static_path(system, times);
     const Eigen::RowVectorXd sum = path.force.topRows(stage.planets()).colwise().sum();
     const double expected = stage.planets() * stage.mean_mesh_force();
-    BOOST_TEST((sum.array() / expected - 1).abs().maxCoeff() <= 1e-4 / share);
+    BOOST_TEST((sum.array() / expected - 1).abs().maxCoeff() <= 1e-9 / share);
   }
 }
 

@@ -266,7 +266,8 @@ BOOST_AUTO_TEST_CASE(the_whole_planet_as_one_matrix) {
 // A planet that does not deform makes the bearing what the law says: the mesh is then as stiff as on a hub. Its motion
 // in the bearing, 0.15 mm, moves the contact along the flanks a little, because the pressure does not stand all at the
 // theoretical contact: normals differ by up to 3e-3 (as above), 0.15 mm x 3e-3 x sin 22.5 degrees = 0.17 um at most, of
-// deflections of 8 um; where the pressure moves, that cancels in the mean.
+// deflections of 8 um; most of it cancels in the mean. The stiffness of small
+// motions is held to that bound itself, 2e-2 (found: 1e-2).
 BOOST_AUTO_TEST_CASE(a_stiff_planet_is_one_on_a_hub) {
   for (const bool ring : {false, true})
     for (const double play : {0.0, 30e-6}) {

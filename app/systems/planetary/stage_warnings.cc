@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "app/model/scene_warnings.h"
@@ -53,8 +52,7 @@ std::vector<std::string> rigid_unasked(const Scene& scene) {
 /// Cantilevered pins tilt, which a plane model does not show.
 void warn_of_tilting_pins(std::vector<Warning>& list, const Scene& scene, const GearGeometry& geometry) {
   const auto& set = geometry.rings.front().set;
-  const double force = geometry.operating_point.mean_mesh_force * (std::cos(set.sun_mesh().working_pressure_angle()) +
-                                                                   std::cos(set.ring_mesh().working_pressure_angle()));
+  const double force = geometry.operating_point.mean_mesh_force * pin_force_per_mesh_force(set);
   const double tilt = pin_tilt(scene, force);
   if (!scene.dynamics || tilt == 0) return;
   list.push_back({"pins_tilt", Severity::warning,

@@ -55,9 +55,8 @@ MeshElement bearing_component(const PlanetaryStage& stage, const std::string& na
 void add_bearing_with_play(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const std::string& name,
                            const PlanetBearing& bearing, const LinearForm& radial, const LinearForm& tangential) {
   const RadialBearing law(bearing.radial, bearing.play, bearing.pin);
-  const Eigen::Vector2d force = stage.mean_pin_force();
-  const double size = force.norm();
-  const Eigen::Vector2d along = size > 0 ? Eigen::Vector2d(force / size) : Eigen::Vector2d::UnitY();
+  const double size = stage.mean_pin_force().norm();
+  const Eigen::Vector2d along = stage.pin_direction();
   const double distance = law.distance(size), slope = law(distance).slope;
   const int first =
       builder.add_mesh(bearing_component(stage, name + "_bearing_along", radial, tangential, along, slope));

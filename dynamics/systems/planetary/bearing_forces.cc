@@ -106,8 +106,7 @@ Eigen::RowVectorXd pin_force_by_equilibrium(const PlanetaryStage& stage, const T
 /// mean pin force.
 void set_pin_force_with_play(const PlanetaryStage& stage, const TimeSeries& series, int n, Eigen::Index first,
                              BearingForces& result) {
-  const Eigen::Vector2d mean = stage.mean_pin_force();
-  const Eigen::Vector2d along = mean.norm() > 0 ? Eigen::Vector2d(mean.normalized()) : Eigen::Vector2d::UnitY();
+  const Eigen::Vector2d along = stage.pin_direction();
   const auto force = series.force.row(first), across = series.force.row(first + 1);
   result.radial.row(n) = along[0] * force - along[1] * across;
   result.tangential.row(n) = along[1] * force + along[0] * across;

@@ -149,6 +149,11 @@ Eigen::Vector2d PlanetaryStage::mean_pin_force() const {
           force * (std::cos(sun_working_angle) + std::cos(ring_working_angle))};
 }
 
+Eigen::Vector2d PlanetaryStage::pin_direction() const {
+  const Eigen::Vector2d force = mean_pin_force();
+  return force.norm() > 0 ? Eigen::Vector2d(force.normalized()) : Eigen::Vector2d::UnitY();
+}
+
 double PlanetaryStage::mesh_rate() const { return ring_teeth * rolling_speed(*this) / (2 * std::numbers::pi); }
 
 double PlanetaryStage::mesh_frequency() const { return std::abs(mesh_rate()); }

@@ -131,6 +131,8 @@ struct PlanetaryStage {
   /// Force of a planet on its pin under the mean mesh force, N: radial outwards, with the centrifugal force, and in the
   /// sense of rotation.
   [[nodiscard]] Eigen::Vector2d mean_pin_force() const;
+  /// Its unit vector, along which bearings with play have their first element; tangential without a force.
+  [[nodiscard]] Eigen::Vector2d pin_direction() const;
   [[nodiscard]] int planets() const { return static_cast<int>(planet_angles.size()); }
   [[nodiscard]] double mesh_rate() const;        ///< Hz: z_r (Omega_c - Omega_r) / 2 pi
   [[nodiscard]] double mesh_frequency() const;   ///< Hz: |mesh_rate|
