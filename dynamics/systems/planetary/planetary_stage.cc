@@ -110,8 +110,15 @@ void add(std::vector<HarmonicError>& list, double sign, const Deviation& deviati
 // a_s), cos(phi_n - a_s)). With delta = ... - e this is e = +|d| sin(angle of d - phi_n + a_s). A displacement of the
 // sun increases it: e = -... The ring mesh likewise with n_r = (-sin(phi_n + a_r), cos(phi_n + a_r)).
 std::vector<HarmonicError> sun_mesh_errors(const PlanetaryStage& s, int n) {
+  return sun_mesh_errors(s, n, s.sun_working_angle);
+}
+std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& s, int n) {
+  return ring_mesh_errors(s, n, s.ring_working_angle);
+}
+
+std::vector<HarmonicError> sun_mesh_errors(const PlanetaryStage& s, int n, double alpha) {
   std::vector<HarmonicError> list;
-  const double phi = s.planet_angles[n], alpha = s.sun_working_angle, turn = -s.carrier_speed;
+  const double phi = s.planet_angles[n], turn = -s.carrier_speed;
   if (!s.planet_errors.empty()) {
     add(list, +1, s.planet_errors[n].eccentricity, rate_of_planet(s), alpha);
     add(list, +1, s.planet_errors[n].position, 0, alpha - phi);
@@ -123,9 +130,9 @@ std::vector<HarmonicError> sun_mesh_errors(const PlanetaryStage& s, int n) {
   return list;
 }
 
-std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& s, int n) {
+std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& s, int n, double alpha) {
   std::vector<HarmonicError> list;
-  const double phi = s.planet_angles[n], alpha = s.ring_working_angle, turn = -s.carrier_speed;
+  const double phi = s.planet_angles[n], turn = -s.carrier_speed;
   if (!s.planet_errors.empty()) {
     add(list, +1, s.planet_errors[n].eccentricity, rate_of_planet(s), -alpha);
     add(list, +1, s.planet_errors[n].position, 0, -alpha - phi);

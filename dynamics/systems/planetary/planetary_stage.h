@@ -164,9 +164,11 @@ struct PlanetaryStage {
 ///   sun:     e_sn = -E sin(w t + th - phi_n + a_s),  w = (z_r/z_s) Omega; position: w = -Omega_c
 ///   ring:    e_rn = -E sin(w t + th - phi_n - a_r),  w = -Omega; position: w = -Omega_c
 ///   carrier: as a displacement of the planet: + ..., eccentricity w = 0, position w = -Omega_c
-/// with Omega = Omega_c - Omega_r.
+/// with Omega = Omega_c - Omega_r. The errors of the back flanks are the negative of those with the negative angle.
 [[nodiscard]] std::vector<HarmonicError> sun_mesh_errors(const PlanetaryStage& stage, int n);
 [[nodiscard]] std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& stage, int n);
+[[nodiscard]] std::vector<HarmonicError> sun_mesh_errors(const PlanetaryStage& stage, int n, double working_angle);
+[[nodiscard]] std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& stage, int n, double working_angle);
 
 /// Fills teeth, base radii, carrier radius, working and planet angles, phase lags and tooth offsets.
 void set_kinematics(PlanetaryStage& stage, const geometry::PlanetarySet& set);

@@ -1,0 +1,339 @@
+#include "dynamics/systems/planetary/spatial_stage.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/errors.h"
+#include "dynamics/spatial/elastic_laws.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+using Kind = StageBody::Kind;
+using Eigen::Vector3d;
+
+constexpr std::array<Kind, 3> central_bodies{Kind::sun, Kind::ring, Kind::carrier};
+
+Vector3d radial(double phi) { return {std::cos(phi), std::sin(phi), 0}; }
+Vector3d tangential(double phi) { return {-std::sin(phi), std::cos(phi), 0}; }
+
+const CentralBody& central(const SpatialStage& stage, Kind kind) {
+  return kind == Kind::sun ? stage.plane.sun : kind == Kind::ring ? stage.plane.ring : stage.plane.carrier;
+}
+
+/// On the axis of a body, at the middle of the stage.
+Vector3d centre_of(const SpatialStage& stage, const StageBody& body) {
+  if (body.kind != Kind::planet) return Vector3d::Zero();
+  return stage.plane.carrier.radius * radial(stage.plane.planet_angles[static_cast<std::size_t>(body.planet)]);
+}
+
+/// A bearing and its mirror image about the middle of the face do the same.
+bool mirrors(const StageBearing& a, const StageBearing& b) {
+  return a.body == b.body && a.on == b.on && a.frame == b.frame && a.place == -b.place && a.x == b.x && a.y == b.y &&
+         a.play == b.play && a.load_zone == b.load_zone && !a.matrix && !b.matrix;
+}
+/// Does a displacement in the plane call for no axial force and no tilting moment?
+bool keeps_plane(const Eigen::Matrix<double, 5, 5>& k) {
+  for (const int in_plane : {0, 1})
+    for (const int out : {2, 3, 4})
+      if (k(in_plane, out) != 0 || k(out, in_plane) != 0) return false;
+  return true;
+}
+
+class Assembly {
+ public:
+  Assembly(const SpatialStage& stage, double t)
+      : stage_(stage),
+        time_(t),
+        space_(!stage.reasons_for_space().empty()),
+        result_{Mechanism(stage.plane.carrier.radius), {}, {}} {}
+
+  StageMechanism build() && {
+    for (const auto kind : central_bodies)
+      mechanism().add_body({SpatialStage::name_of({kind}), Vector3d::Zero(), space_});
+    for (int n = 0; n < stage_.planets(); ++n)
+      mechanism().add_body({SpatialStage::name_of({Kind::planet, n}), centre_of(stage_, {Kind::planet, n}), space_});
+    for (const auto& bearing : stage_.bearings) add_bearing(bearing);
+    for (const auto kind : central_bodies)
+      if (!stage_.has_bearings({kind})) add_support({kind});
+    for (int n = 0; n < stage_.planets(); ++n)
+      if (!stage_.has_bearings({Kind::planet, n})) add_support({Kind::planet, n});
+    add_rotations();
+    for (int n = 0; n < stage_.planets(); ++n) result_.meshes.push_back(add_mesh(true, n));
+    for (int n = 0; n < stage_.planets(); ++n) result_.meshes.push_back(add_mesh(false, n));
+    add_loads();
+    return std::move(result_);
+  }
+
+ private:
+  Mechanism& mechanism() { return result_.mechanism; }
+  [[nodiscard]] int number(const StageBody& body) const { return body_number(stage_, body); }
+
+  /// x, y, z, about x, about y of a bearing.
+  Mechanism::Measure measure(const StageBearing& b, const Eigen::Matrix3d& axes, int coordinate) {
+    const Vector3d point = centre_of(stage_, b.body) + b.place * Vector3d::UnitZ();
+    return coordinate < 3 ? mechanism().displacement(number(b.body), number(b.on), point, axes.col(coordinate))
+                          : mechanism().rotation(number(b.body), number(b.on), axes.col(coordinate - 3));
+  }
+
+  /// Element on some coordinates of a bearing.
+  void add_element(StageMechanism::Bearing& made, const StageBearing& b, const std::vector<int>& coordinates,
+                   std::shared_ptr<const ElasticLaw> law) {
+    const auto count = static_cast<Eigen::Index>(coordinates.size());
+    Eigen::MatrixXd measures(count, 6 * static_cast<Eigen::Index>(mechanism().bodies()));
+    for (Eigen::Index i = 0; i < count; ++i)
+      measures.row(i) = measure(b, made.axes, coordinates[static_cast<std::size_t>(i)]);
+    const int element = mechanism().add_element(b.name, measures, std::move(law), Eigen::VectorXd::Zero(count));
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      made.element.at(static_cast<std::size_t>(coordinates[i])) = element;
+      made.coordinate.at(static_cast<std::size_t>(coordinates[i])) = static_cast<int>(i);
+    }
+  }
+
+  void hold(StageMechanism::Bearing& made, const StageBearing& b, int coordinate) {
+    constexpr const char* words[] = {"the x position", "the y position", "the axial position", "the tilt about x",
+                                     "the tilt about y"};
+    made.held.at(static_cast<std::size_t>(coordinate)) = mechanism().hold(
+        fmt::format("{} of the {} (bearing '{}')", words[coordinate], SpatialStage::name_of(b.body), b.name),
+        measure(b, made.axes, coordinate));
+  }
+
+  void add_scalar(StageMechanism::Bearing& made, const StageBearing& b, int coordinate, double stiffness, double play) {
+    if (stiffness == 0) return;
+    if (stiffness == rigid) return hold(made, b, coordinate);
+    if (play > 0)
+      add_element(made, b, {coordinate}, std::make_shared<StopLaw>(1, stiffness, play));
+    else
+      add_element(made, b, {coordinate}, std::make_shared<LinearLaw>(Eigen::MatrixXd::Constant(1, 1, stiffness)));
+  }
+
+  void add_bearing(const StageBearing& b) {
+    StageMechanism::Bearing made{b.name, b.body, b.frame, b.place, frame_axes(stage_, b.frame, b.body, time_)};
+    if (b.matrix) {
+      const std::vector<int> coordinates = space_ ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 1};
+      const auto count = static_cast<Eigen::Index>(coordinates.size());
+      add_element(made, b, coordinates, std::make_shared<LinearLaw>(b.matrix->topLeftCorner(count, count)));
+    } else {
+      if (b.play > 0 && b.x > 0) {
+        if (b.load_zone)
+          add_element(made, b, {0, 1}, std::make_shared<LoadZoneLaw>(RadialBearing(b.x, b.play, b.seat), b.x));
+        else
+          add_element(made, b, {0, 1}, std::make_shared<StopLaw>(2, b.x, b.play));
+      } else {
+        add_scalar(made, b, 0, b.x, 0);
+        add_scalar(made, b, 1, b.y, 0);
+      }
+      if (space_) {
+        add_scalar(made, b, 2, b.axial, b.axial_play);
+        add_scalar(made, b, 3, b.tilt, 0);
+        add_scalar(made, b, 4, b.tilt, 0);
+      }
+    }
+    result_.bearings.push_back(std::move(made));
+  }
+
+  /// The support of the plane, in the middle of the face.
+  void add_support(const StageBody& body) {
+    StageBearing b;
+    b.body = body;
+    b.axial = b.tilt = rigid;
+    b.name = SpatialStage::name_of(body);
+    if (body.kind == Kind::planet) {
+      const auto bearing = stage_.plane.planet_bearing(body.planet);
+      b.on = {Kind::carrier};
+      b.frame = StageFrame::planet;
+      b.x = bearing.radial;
+      b.y = bearing.tangential;
+      b.play = bearing.play;
+      b.seat = bearing.pin;
+    } else {
+      b.x = b.y = central(stage_, body.kind).support;
+    }
+    add_bearing(b);
+  }
+
+  /// The angle of the carrier is that of the position; what the ring's torsional support gives way is elastic.
+  void add_rotations() {
+    const Vector3d axis = Vector3d::UnitZ();
+    const int carrier = number({Kind::carrier}), ring = number({Kind::ring});
+    result_.carrier_hold =
+        mechanism().hold("the rotation of the carrier", mechanism().rotation(carrier, Mechanism::ground, axis));
+    const auto turn = mechanism().rotation(ring, Mechanism::ground, axis);
+    const double torsional = stage_.plane.ring.torsional_support;
+    if (torsional == rigid || torsional == 0) {
+      result_.ring_hold = mechanism().hold("the rotation of the ring", turn);
+      return;
+    }
+    const double stiffness = torsional * stage_.plane.ring.radius * stage_.plane.ring.radius;  // u = r_b phi
+    mechanism().add_element("ring torsional support", turn,
+                            std::make_shared<LinearLaw>(Eigen::MatrixXd::Constant(1, 1, stiffness)),
+                            Eigen::VectorXd::Zero(1));
+  }
+
+  StageMechanism::Mesh add_mesh(bool of_sun, int n) {
+    const auto& plane = stage_.plane;
+    const auto& face = of_sun ? stage_.sun_face : stage_.ring_face;
+    const auto at = [n](const std::vector<double>& list) {
+      return list.empty() ? 0.0 : list[static_cast<std::size_t>(n)];
+    };
+    const double phase = of_sun ? -at(plane.sun_phase_lag) : at(plane.ring_tooth_offset) - at(plane.ring_phase_lag);
+    const double cycles = plane.mesh_rate() * time_;
+    double of_teeth = 0;
+    const auto& tooth_errors = of_sun ? plane.sun_tooth_errors : plane.ring_tooth_errors;
+    if (!tooth_errors.empty())
+      for (const auto& e : tooth_errors[static_cast<std::size_t>(n)]) of_teeth += e.curve(cycles + e.phase_offset);
+    // Of the transverse section, of flanks with this working angle.
+    const auto error = [&](double angle) {
+      double sum = of_teeth;
+      for (const auto& e : of_sun ? sun_mesh_errors(plane, n, angle) : ring_mesh_errors(plane, n, angle))
+        sum += e.amount * std::sin(e.rate * time_ + e.phase);
+      return sum;
+    };
+    const double alpha = of_sun ? plane.sun_working_angle : plane.ring_working_angle;
+    StageMechanism::Mesh mesh;
+    using Flank = StageFace::Flank;
+    mesh.law = face.law(cycles + phase, Flank::driving);
+    mesh.driving = add_flank(of_sun, n, *mesh.law, mesh.law, 1, error(alpha));
+    if (face.backlash) {
+      mesh.back_law = face.law(cycles + phase, Flank::back);
+      const double apart = *face.backlash / std::cos(stage_.base_helix_angle) - error(-alpha);
+      mesh.back = add_flank(of_sun, n, *mesh.back_law, mesh.back_law, -1, apart);
+    }
+    return mesh;
+  }
+
+  /// `side`: 1 for driving flanks, -1 for back flanks. `gap`: m, of the transverse section.
+  int add_flank(bool of_sun, int n, const FaceLaw& law, std::shared_ptr<const ElasticLaw> shared, double side,
+                double gap) {
+    const auto& plane = stage_.plane;
+    const double phi = plane.planet_angles[static_cast<std::size_t>(n)];
+    const double c = std::cos(stage_.base_helix_angle), s = std::sin(stage_.base_helix_angle);
+    const double alpha = of_sun ? plane.sun_working_angle : plane.ring_working_angle;
+    const Vector3d r = radial(phi), t = tangential(phi);
+    const Vector3d normal =
+        (of_sun ? 1 : -1) * side * c * std::cos(alpha) * t + c * std::sin(alpha) * r + side * s * Vector3d::UnitZ();
+    const StageBody planet{Kind::planet, n};
+    const int first = of_sun ? number({Kind::sun}) : number(planet);
+    const int second = of_sun ? number(planet) : number({Kind::ring});
+    const Vector3d pitch_point = of_sun ? Vector3d((plane.carrier.radius - stage_.planet_working_radius_sun) * r)
+                                        : Vector3d((plane.carrier.radius + stage_.planet_working_radius_ring) * r);
+    const double middle = of_sun ? stage_.sun_face.middle : stage_.ring_face.middle;
+    const auto count = static_cast<Eigen::Index>(law.stations().size());
+    Eigen::MatrixXd measures(count, 6 * static_cast<Eigen::Index>(mechanism().bodies()));
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double z = middle + law.stations()[static_cast<std::size_t>(i)];
+      measures.row(i) = mechanism().displacement(first, second, pitch_point + z * Vector3d::UnitZ(), normal);
+    }
+    return mechanism().add_element(fmt::format("{}_planet{}", of_sun ? "sun" : "ring", n + 1), measures,
+                                   std::move(shared), Eigen::VectorXd::Constant(count, c * gap));
+  }
+
+  void add_loads() {
+    mechanism().add_load(number({Kind::sun}), Vector3d::Zero(), Vector3d::Zero(),
+                         stage_.plane.sun_torque * Vector3d::UnitZ());
+    for (const auto& load : stage_.loads) {
+      const auto axes = frame_axes(stage_, load.frame, load.body, time_);
+      mechanism().add_load(number(load.body), centre_of(stage_, load.body) + axes * load.point, axes * load.force,
+                           axes * load.moment);
+    }
+    const Vector3d gravity = frame_axes(stage_, StageFrame::housing, {}, time_) * stage_.gravity;
+    for (const auto& weight : stage_.weights)
+      mechanism().add_load(number(weight.body), centre_of(stage_, weight.body) + weight.place * Vector3d::UnitZ(),
+                           weight.mass * gravity, Vector3d::Zero());
+  }
+
+  const SpatialStage& stage_;
+  double time_;
+  bool space_;
+  StageMechanism result_;
+};
+
+}  // namespace
+
+std::string SpatialStage::name_of(const StageBody& body) {
+  constexpr const char* names[] = {"housing", "sun", "ring", "carrier"};
+  if (body.kind == Kind::planet) return fmt::format("planet{}", body.planet + 1);
+  return names[static_cast<std::size_t>(body.kind)];
+}
+
+bool SpatialStage::has_bearings(const StageBody& body) const {
+  return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
+}
+
+std::vector<std::string> SpatialStage::reasons_for_space() const {
+  std::vector<std::string> reasons;
+  if (base_helix_angle != 0) reasons.emplace_back("the teeth are helical");
+  for (const auto& [face, name] : {std::pair{&sun_face, "sun"}, {&ring_face, "ring"}}) {
+    if (!face->symmetric)
+      reasons.push_back(fmt::format("the flanks of the {} meshes differ between the ends of the face", name));
+    if (face->middle != 0)
+      reasons.push_back(fmt::format("the face of the {} meshes lies beside the middle of the stage", name));
+  }
+  for (const auto& load : loads) {
+    const bool transverse = load.force.head<2>().any();
+    if (load.force.z() != 0 || load.moment.head<2>().any() || (transverse && load.point.z() != 0))
+      reasons.push_back(fmt::format("load '{}' acts along the axis or tilts the {}", load.name, name_of(load.body)));
+  }
+  if (gravity.z() != 0 && !weights.empty()) reasons.emplace_back("gravity acts along the axis");
+  if (gravity.head<2>().any())
+    for (const auto& weight : weights)
+      if (weight.place != 0)
+        reasons.push_back(fmt::format("the weight of the {} acts beside the middle of the face", name_of(weight.body)));
+  for (const auto& b : bearings) {
+    const bool paired =
+        b.matrix ? b.place == 0 && keeps_plane(*b.matrix)
+                 : std::any_of(bearings.begin(), bearings.end(), [&](const auto& o) { return mirrors(b, o); });
+    const bool radial = b.matrix || b.x > 0 || b.y > 0;
+    if (radial && !paired)
+      reasons.push_back(fmt::format("bearing '{}' of the {} has no counterpart on the other side of the face", b.name,
+                                    name_of(b.body)));
+  }
+  return reasons;
+}
+
+bool SpatialStage::depends_on_carrier_angle() const {
+  for (const auto& load : loads)
+    if (load.frame == StageFrame::housing &&
+        (load.force.head<2>().any() || load.moment.head<2>().any() || load.point.head<2>().any()))
+      return true;
+  if (gravity.head<2>().any() && !weights.empty()) return true;
+  for (const auto& b : bearings) {
+    if (b.frame != StageFrame::housing) continue;
+    if (b.matrix || b.x != b.y) return true;
+  }
+  const auto fixed = [](const CentralBody& body) { return body.errors.position.exists(); };
+  return fixed(plane.sun) || fixed(plane.ring) || fixed(plane.carrier);
+}
+
+int body_number(const SpatialStage&, const StageBody& body) {
+  switch (body.kind) {
+    case Kind::housing:
+      return Mechanism::ground;
+    case Kind::sun:
+      return 0;
+    case Kind::ring:
+      return 1;
+    case Kind::carrier:
+      return 2;
+    case Kind::planet:
+      break;
+  }
+  return 3 + body.planet;
+}
+
+Eigen::Matrix3d frame_axes(const SpatialStage& stage, StageFrame frame, const StageBody& body, double t) {
+  double angle = 0;
+  if (frame == StageFrame::housing) angle = -stage.plane.carrier_speed * t;
+  if (frame == StageFrame::planet) angle = stage.plane.planet_angles.at(static_cast<std::size_t>(body.planet));
+  return Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
+}
+
+StageMechanism assemble(const SpatialStage& stage, double t) { return Assembly(stage, t).build(); }
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/elastic_law.h"
+#include "dynamics/spatial/mechanism.h"
+#include "dynamics/systems/planetary/planetary_stage.h"
+
+namespace annulus::dynamics {
+
+/// A body of a stage; planets by number.
+struct StageBody {
+  enum class Kind { housing, sun, ring, carrier, planet };
+  Kind kind = Kind::housing;
+  int planet = 0;
+  bool operator==(const StageBody&) const = default;
+};
+
+/// Frames in which bearings, loads and results are stated. z points along the axis in all of them.
+///
+/// carrier: x towards planet 0. housing: that of the carrier at time 0. planet: x radially outwards through the
+/// planet's axis and y tangential, counter-clockwise.
+enum class StageFrame { carrier, housing, planet };
+
+/// A bearing between two bodies in a place on the axis of the first: force and moment from the displacement (x, y, z)
+/// and the tilt (about x, y) of `body` against `on` there. It has no torque about the axis.
+struct StageBearing {
+  std::string name;
+  StageBody body, on;
+  StageFrame frame = StageFrame::housing;
+  double place = 0;       ///< m, z
+  double x = 0, y = 0;    ///< N/m; `rigid`: does not move
+  double axial = 0;       ///< N/m
+  double tilt = 0;        ///< N m/rad, about x and y
+  double play = 0;        ///< m, half the radial clearance; x and y are then equal and finite
+  bool load_zone = true;  ///< with play: RadialBearing; else a stop (StopLaw)
+  double axial_play = 0;  ///< m, half the axial clearance
+  double seat = rigid;    ///< N/m, in series with a bearing that has play and a load zone
+  std::optional<Eigen::Matrix<double, 5, 5>> matrix{};  ///< instead of the stiffnesses; SI
+};
+
+/// A force and a moment on a body at a point (m, from the middle of the stage's axis, or a planet's).
+struct StageLoad {
+  std::string name;
+  StageBody body;
+  StageFrame frame = StageFrame::housing;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero(), force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+};
+
+/// Weight of a body in its centre of mass, which is on its axis.
+struct StageWeight {
+  StageBody body;
+  double mass = 0;   ///< kg
+  double place = 0;  ///< m, z
+};
+
+/// A kind of mesh along its face.
+struct StageFace {
+  enum class Flank { driving, back };
+  /// The law at a mesh phase (mesh cycles, whole ones count the teeth of the ring).
+  std::function<std::shared_ptr<const FaceLaw>(double mesh_cycles, Flank flank)> law;
+  double middle = 0;               ///< m, z of the middle of the common face
+  std::optional<double> backlash;  ///< m, j_bn, normal to the flanks; absent: back flanks never touch
+  bool symmetric = true;           ///< about the middle of the face, without load
+};
+
+/// A planetary stage in space: that of the plane with the widths of its faces, the places of its bearings, and loads
+/// that are no torques. SI.
+///
+/// Axes as in PlanetaryStage; the external torque on the sun is counter-clockwise. Meshes with the unit normal n of the
+/// driving flank from the driving body into the driven one, c = cos(base helix angle), s = sin(base helix angle), sigma
+/// = +1 for right-handed planets:
+///
+///   sun -> planet    n = c (cos a_s t + sin a_s r) + sigma s z
+///   planet -> ring   n = c (-cos a_r t + sin a_r r) + sigma s z
+///   delta(z) = n . [u_1 + phi_1 x rho_1(z) - u_2 - phi_2 x rho_2(z)] - c e
+///
+/// rho(z) ends in the working pitch point at z; e is the transmission error of the plane (sun_mesh_errors()). Back
+/// flanks have cos a, and sigma s, of the other sign.
+///
+/// A body that `bearings` name is held by these alone. Others have the radial supports of `plane` in the middle of the
+/// face, and neither move along the axis nor tilt.
+struct SpatialStage {
+  PlanetaryStage plane;
+  double base_helix_angle = 0;                                           ///< rad, signed: > 0 for right-handed planets
+  double planet_working_radius_sun = 0, planet_working_radius_ring = 0;  ///< m, of the pitch points from planet axes
+  StageFace sun_face, ring_face;
+  std::vector<StageBearing> bearings;
+  std::vector<StageLoad> loads;
+  std::vector<StageWeight> weights;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, in the housing's frame
+
+  [[nodiscard]] int planets() const { return plane.planets(); }
+  /// For messages and files: "sun", "planet2".
+  [[nodiscard]] static std::string name_of(const StageBody& body);
+  [[nodiscard]] bool has_bearings(const StageBody& body) const;
+  /// Why bodies move along the axis and tilt; empty: nothing makes them, and these degrees of freedom are left out.
+  [[nodiscard]] std::vector<std::string> reasons_for_space() const;
+  /// Whether anything stands still in the housing that is not the same in all directions, so that the forces depend on
+  /// the angle of the carrier.
+  [[nodiscard]] bool depends_on_carrier_angle() const;
+};
+
+/// A stage as a mechanism in one position.
+struct StageMechanism {
+  Mechanism mechanism;
+  struct Mesh {
+    int driving = -1, back = -1;  ///< elements; -1: none
+    std::shared_ptr<const FaceLaw> law, back_law;
+  };
+  std::vector<Mesh> meshes;  ///< sun meshes of planets 0 ... N-1, then ring meshes
+  /// A bearing, or the support that a body without one has.
+  struct Bearing {
+    std::string name;
+    StageBody body;
+    StageFrame frame = StageFrame::housing;
+    double place = 0;                                    ///< m, z
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of its frame, as columns
+    /// x, y, z, about x, about y: the element and coordinate that resists it, or the hold; -1: nothing.
+    std::array<int, 5> element{-1, -1, -1, -1, -1}, coordinate{}, held{-1, -1, -1, -1, -1};
+  };
+  std::vector<Bearing> bearings;
+  int carrier_hold = -1;  ///< of its rotation, which bears its torque
+  int ring_hold = -1;     ///< of its rotation; -1: it has an elastic torsional support
+};
+/// At time t (s). Throws InputError where bearings, loads and bodies do not fit.
+[[nodiscard]] StageMechanism assemble(const SpatialStage& stage, double t);
+/// Number of a body in it; Mechanism::ground for the housing.
+[[nodiscard]] int body_number(const SpatialStage& stage, const StageBody& body);
+/// Axes of a frame (columns) at time t, in the carrier's.
+[[nodiscard]] Eigen::Matrix3d frame_axes(const SpatialStage& stage, StageFrame frame, const StageBody& body, double t);
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,158 @@
+#include "dynamics/systems/planetary/stage_statics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.h"
+#include "core/parallel.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+StaticMesh mesh_in(const StageMechanism::Mesh& mesh, const Mechanism::Equilibrium& at, double normal_factor) {
+  StaticMesh result;
+  const auto& law = *mesh.law;
+  const auto element = static_cast<std::size_t>(mesh.driving);
+  const auto& state = at.state[element];
+  const Eigen::VectorXd line = law.line_load(at.deflection[element], state);
+  result.line_load.assign(line.begin(), line.end());
+  const double force = state.force.sum();
+  result.force = normal_factor * force;
+  if (force > 0) {
+    result.line_load_ratio = line.maxCoeff() * law.face_width() / force;
+    for (Eigen::Index i = 0; i < state.force.size(); ++i)
+      result.place += law.stations()[static_cast<std::size_t>(i)] * state.force[i] / force;
+  }
+  if (mesh.back < 0) return result;
+  const double back = at.state[static_cast<std::size_t>(mesh.back)].force.sum();
+  result.force -= normal_factor * back;
+  result.back_flanks = back > 0;
+  return result;
+}
+
+StaticBearing bearing_in(const StageMechanism::Bearing& bearing, const Mechanism::Equilibrium& at) {
+  StaticBearing result;
+  for (std::size_t i = 0; i < bearing.element.size(); ++i) {
+    double value = 0;
+    if (bearing.element[i] >= 0)
+      value = -at.state[static_cast<std::size_t>(bearing.element[i])].force[bearing.coordinate[i]];
+    else if (bearing.held[i] >= 0)
+      value = -at.holding[bearing.held[i]];
+    if (i < 3)
+      result.force[static_cast<Eigen::Index>(i)] = value;
+    else
+      result.moment[static_cast<Eigen::Index>(i) - 3] = value;
+  }
+  return result;
+}
+
+StaticPosition solved_position(const SpatialStage& stage, double cycles) {
+  const auto& plane = stage.plane;
+  StaticPosition p;
+  p.mesh_cycles = cycles;
+  // Mesh cycles count in the sense in which the stage turns.
+  const double frequency = plane.mesh_frequency();
+  p.time = frequency > 0 ? cycles / frequency : 0;
+  p.carrier_angle = plane.carrier_speed * p.time;
+  const auto made = assemble(stage, p.time);
+  const auto at = [&] {
+    try {
+      return made.mechanism.solve();
+    } catch (const SolverError& error) {
+      throw SolverError(fmt::format("statics at mesh cycle {:.4f}: {}", cycles, error.what()));
+    }
+  }();
+  p.residual_relative = at.residual_relative;
+  const double normal_factor = std::cos(stage.base_helix_angle);
+  const auto planets = static_cast<std::size_t>(stage.planets());
+  for (std::size_t m = 0; m < made.meshes.size(); ++m)
+    (m < planets ? p.sun_meshes : p.ring_meshes).push_back(mesh_in(made.meshes[m], at, normal_factor));
+  for (const auto& bearing : made.bearings) p.bearings.push_back(bearing_in(bearing, at));
+  for (int b = 0; b < made.mechanism.bodies(); ++b) {
+    const bool planet = b >= 3;
+    const StageBody body{planet ? StageBody::Kind::planet : StageBody::Kind::housing, planet ? b - 3 : 0};
+    const auto axes = frame_axes(stage, planet ? StageFrame::planet : StageFrame::carrier, body, p.time);
+    p.bodies.push_back(
+        {axes.transpose() * at.motion.segment<3>(6 * b), axes.transpose() * at.motion.segment<3>(6 * b + 3)});
+  }
+  p.carrier_torque = -at.holding[made.carrier_hold];
+  if (made.ring_hold >= 0) p.ring_torque = -at.holding[made.ring_hold];
+  return p;
+}
+
+StaticFigures::Mesh mesh_figures(const StaticTurn& turn, std::vector<StaticMesh> StaticPosition::*meshes) {
+  StaticFigures::Mesh result;
+  const std::size_t planets = (turn.positions.front().*meshes).size();
+  const auto phases = static_cast<std::size_t>(turn.schedule.phases);
+  const auto share = [&](const std::vector<double>& forces) {
+    double sum = 0, largest = 0;
+    for (const double f : forces) {
+      sum += f;
+      largest = std::max(largest, std::abs(f));
+    }
+    return sum == 0 ? std::numeric_limits<double>::quiet_NaN() : largest * static_cast<double>(planets) / std::abs(sum);
+  };
+  for (std::size_t place = 0; place < turn.schedule.cycles.size(); ++place) {
+    std::vector<double> mean(planets, 0.0);
+    for (std::size_t k = 0; k < phases; ++k) {
+      const auto& list = turn.positions[place * phases + k].*meshes;
+      std::vector<double> now;
+      for (std::size_t n = 0; n < planets; ++n) {
+        now.push_back(list[n].force);
+        mean[n] += list[n].force;
+        result.line_load_ratio = std::max(result.line_load_ratio, list[n].line_load_ratio);
+      }
+      result.sharing_instantaneous = std::max(result.sharing_instantaneous, share(now));
+    }
+    result.sharing = std::max(result.sharing, share(mean));
+  }
+  return result;
+}
+
+}  // namespace
+
+StaticSchedule turn_of_carrier(const PlanetaryStage& stage, int places, int phases) {
+  StaticSchedule schedule;
+  schedule.phases = phases;
+  schedule.cycles.clear();
+  for (int i = 0; i < places; ++i)
+    schedule.cycles.push_back(std::round(static_cast<double>(i) * stage.ring_teeth / places));
+  return schedule;
+}
+
+StaticTurn solve_turn(const SpatialStage& stage, const StaticSchedule& schedule, int threads) {
+  StaticTurn turn;
+  turn.schedule = schedule;
+  turn.positions.resize(schedule.positions());
+  const auto phases = static_cast<std::size_t>(schedule.phases);
+  for_each_task(turn.positions.size(), threads, [&](std::size_t i) {
+    turn.positions[i] = solved_position(
+        stage, schedule.cycles[i / phases] + static_cast<double>(i % phases) / static_cast<double>(phases));
+  });
+  const auto made = assemble(stage, 0);
+  for (const auto& bearing : made.bearings) turn.bearing_names.push_back(bearing.name);
+  for (int b = 0; b < made.mechanism.bodies(); ++b) turn.body_names.push_back(made.mechanism.body(b).name);
+  turn.sun_stations = made.meshes.front().law->stations();
+  turn.ring_stations = made.meshes.back().law->stations();
+  return turn;
+}
+
+StaticFigures figures_of(const StaticTurn& turn) {
+  StaticFigures figures;
+  figures.sun = mesh_figures(turn, &StaticPosition::sun_meshes);
+  figures.ring = mesh_figures(turn, &StaticPosition::ring_meshes);
+  figures.bearing_force.assign(turn.bearing_names.size(), 0.0);
+  figures.bearing_axial = figures.bearing_force;
+  for (const auto& p : turn.positions)
+    for (std::size_t b = 0; b < p.bearings.size(); ++b) {
+      figures.bearing_force[b] = std::max(figures.bearing_force[b], p.bearings[b].force.head<2>().norm());
+      figures.bearing_axial[b] = std::max(figures.bearing_axial[b], std::abs(p.bearings[b].force.z()));
+    }
+  return figures;
+}
+
+}  // namespace annulus::dynamics

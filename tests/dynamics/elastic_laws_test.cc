@@ -1,0 +1,102 @@
+#include <Eigen/Core>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "core/errors.h"
+#include "dynamics/spatial/elastic_laws.h"
+#include "dynamics/spatial/even_face.h"
+#include "tests/verification_record.h"
+
+BOOST_AUTO_TEST_SUITE(elastic_laws)
+
+using namespace annulus::dynamics;
+using annulus::ElasticLaw;
+
+/// Force and tangent against central differences of the energy and of the force, relative to the largest entries.
+struct Slopes {
+  double force = 0, tangent = 0;
+};
+Slopes slopes(const ElasticLaw& law, const Eigen::VectorXd& at, double step) {
+  const auto state = law.at(at);
+  Slopes worst;
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    Eigen::VectorXd up = at, down = at;
+    up[i] += step;
+    down[i] -= step;
+    const auto high = law.at(up), low = law.at(down);
+    worst.force = std::max(worst.force, std::abs((high.energy - low.energy) / (2 * step) - state.force[i]));
+    worst.tangent =
+        std::max(worst.tangent, ((high.force - low.force) / (2 * step) - state.tangent.col(i)).cwiseAbs().maxCoeff());
+  }
+  return {worst.force / state.force.cwiseAbs().maxCoeff(), worst.tangent / state.tangent.cwiseAbs().maxCoeff()};
+}
+
+// The step of the differences leaves its square over that of the deflection, and rounding over the step.
+BOOST_AUTO_TEST_CASE(force_and_tangent_belong_to_the_energy) {
+  annulus::test::Verification record("Elastic laws in space", "differences of the energy and of the force");
+  Eigen::MatrixXd k(3, 3);
+  k << 4e8, 1e7, -2e6, 1e7, 3e8, 5e6, -2e6, 5e6, 1e6;
+  const std::vector<double> stations{-0.1, -0.03, 0.05, 0.1}, gap{3e-6, 0, 1e-6, 8e-6};
+  std::vector<std::pair<std::unique_ptr<ElasticLaw>, std::vector<double>>> laws;
+  laws.emplace_back(std::make_unique<LinearLaw>(k), std::vector<double>{3e-5, -2e-5, 4e-4});
+  laws.emplace_back(std::make_unique<StopLaw>(2, 1e9, 2e-5), std::vector<double>{3e-5, -2e-5});
+  laws.emplace_back(std::make_unique<StopLaw>(1, 1e9, 2e-5), std::vector<double>{-3e-5});
+  laws.emplace_back(std::make_unique<LoadZoneLaw>(annulus::RadialBearing(1e9, 2e-5, 3e9), 1e9),
+                    std::vector<double>{3e-5, -2e-5});
+  laws.emplace_back(std::make_unique<EvenFace>(2e9, stations, gap), std::vector<double>{2e-5, 1e-5, -1e-5, 2e-5});
+  laws.emplace_back(std::make_unique<EvenFace>(2e9, stations, gap), std::vector<double>{-2e-5, -1e-5, 3e-5, 2e-5});
+  Slopes worst;
+  for (const auto& [law, at] : laws) {
+    const Eigen::VectorXd point = Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at));
+    const auto found = slopes(*law, point, 1e-9);
+    worst.force = std::max(worst.force, found.force);
+    worst.tangent = std::max(worst.tangent, found.tangent);
+    BOOST_TEST(law->in_contact().rows() == law->size());
+  }
+  record.at_most("force, largest relative difference", "", worst.force, 1e-7, "step of the differences");
+  record.at_most("tangent, largest relative difference", "", worst.tangent, 1e-7, "step of the differences");
+}
+
+// A pair that is misaligned by gamma (rad) with an even stiffness k' per face width: K_Hbeta = 1 + gamma k' b^2 / (2 F)
+// up to 2, where one end just loses contact, then b sqrt(2 k' gamma / F). Exact for any number of stations.
+BOOST_AUTO_TEST_CASE(misaligned_pair) {
+  annulus::test::Verification record("Load distribution of a misaligned pair", "closed form for an even stiffness");
+  const double b = 0.2, k = 14e9 * b, force = 40e3;
+  for (const double slope : {0.0, 2e-5, 7.1e-5, 1.4e-4, 3e-4, 2e-3}) {
+    for (const int segments : {1, 7}) {
+      std::vector<double> stations, gap;
+      for (int i = 0; i <= segments; ++i) {
+        stations.push_back(b * (static_cast<double>(i) / segments - 0.5));
+        gap.push_back(slope * stations.back());
+      }
+      const EvenFace face(k, stations, gap);
+      double low = -1e-3, high = 1e-3;
+      for (int i = 0; i < 200; ++i) {
+        const double middle = (low + high) / 2;
+        const auto state = face.at(Eigen::VectorXd::Constant(segments + 1, middle));
+        (state.force.sum() < force ? low : high) = middle;
+      }
+      const Eigen::VectorXd approach = Eigen::VectorXd::Constant(segments + 1, high);
+      const double ratio = face.line_load(approach, face.at(approach)).maxCoeff() * b / force;
+      const double gentle = 1 + slope * k / b * b * b / (2 * force);
+      const double expected = gentle <= 2 ? gentle : b * std::sqrt(2 * k / b * slope / force);
+      record.close("K_Hbeta at six slopes, 1 and 7 stretches", "", ratio, expected, 1e-10, "bisection");
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(laws_that_give_energy_away_are_refused) {
+  Eigen::Matrix2d k;
+  k << 1e8, 2e8, 2e8, 1e8;
+  BOOST_CHECK_THROW(LinearLaw{k}, annulus::InputError);
+  k << 1e8, 2e7, 3e7, 1e8;
+  BOOST_CHECK_THROW(LinearLaw{k}, annulus::InputError);
+  BOOST_CHECK_THROW(StopLaw(2, 0, 1e-5), annulus::InputError);
+  BOOST_CHECK_THROW(StopLaw(2, 1e8, -1e-5), annulus::InputError);
+  BOOST_CHECK_THROW(EvenFace(1e9, {0.1, 0.0}, {0.0, 0.0}), annulus::InputError);
+  BOOST_CHECK_THROW(EvenFace(-1, {0.0, 0.1}, {0.0, 0.0}), annulus::InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

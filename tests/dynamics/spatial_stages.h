@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "core/units.h"
+#include "dynamics/spatial/even_face.h"
+#include "dynamics/systems/planetary/spatial_stage.h"
+
+/// Stages in space that tests share.
+namespace annulus::dynamics::stages {
+
+/// A mesh of constant stiffness (N/m, along the normal) spread over a face (m), with a gap per station.
+inline StageFace even_face(double stiffness, double width, std::vector<double> gap = {}, int segments = 1) {
+  StageFace face;
+  std::vector<double> stations;
+  for (int i = 0; i <= segments; ++i) stations.push_back(width * (static_cast<double>(i) / segments - 0.5));
+  if (gap.empty()) gap.assign(stations.size(), 0.0);
+  face.symmetric = gap == std::vector<double>(gap.rbegin(), gap.rend());
+  face.law = [stiffness, stations, gap](double, StageFace::Flank) {
+    return std::make_shared<EvenFace>(stiffness, stations, gap);
+  };
+  return face;
+}
+
+/// After the stage of the Gearbox Reliability Collaborative: 21/39/99 teeth, normal module 10 mm, three planets, helix
+/// angle (rad) of right-handed planets as given. Rigid bodies, a floating sun; stiffnesses are assumed.
+inline SpatialStage reliability_stage(double helix) {
+  SpatialStage s;
+  auto& p = s.plane;
+  p.sun_teeth = 21;
+  p.planet_teeth = 39;
+  p.ring_teeth = 99;
+  const double normal_angle = 20 * units::deg, transverse_module = 10e-3 / std::cos(helix);
+  const double base = std::cos(std::atan(std::tan(normal_angle) / std::cos(helix)));
+  const double a = 0.308;
+  p.sun.radius = transverse_module * 21 / 2 * base;
+  p.planet.radius = transverse_module * 39 / 2 * base;
+  p.ring.radius = transverse_module * 99 / 2 * base;
+  p.carrier.radius = a;
+  p.sun_working_angle = std::acos((p.sun.radius + p.planet.radius) / a);
+  p.ring_working_angle = std::acos((p.ring.radius - p.planet.radius) / a);
+  s.base_helix_angle = std::asin(std::sin(helix) * std::cos(normal_angle));
+  s.planet_working_radius_sun = a * 39 / (21 + 39);
+  s.planet_working_radius_ring = a * 39 / (99 - 39);
+  p.sun.mass = 180;
+  p.planet.mass = 110;
+  p.ring.mass = 509;
+  p.carrier.mass = 1500;
+  p.sun.support = 0;
+  p.ring.torsional_support = rigid;
+  for (int n = 0; n < 3; ++n) p.planet_angles.push_back(2 * std::numbers::pi * n / 3);
+  p.carrier_speed = 22.2 * units::rpm;
+  p.sun_torque = 325e3 / (1 + 99.0 / 21);
+  s.sun_face = even_face(3e9, 0.22);
+  s.ring_face = even_face(4e9, 0.2275);
+  return s;
+}
+
+}  // namespace annulus::dynamics::stages
