@@ -156,6 +156,10 @@ void declare(CLI::App& app, Arguments& arguments) {
       json(cache(limits(out(add_command(
           app, arguments, "dynamics", "The lumped model from stiffness tables; missing tables are computed first"))))),
       "  annulus dynamics faster.toml          uses cached tables of earlier runs");
+  examples(json(cache(limits(out(add_command(
+               app, arguments, "statics", "Equilibrium of a planetary stage over a turn of the carrier, in space"))))),
+           "  annulus statics my.toml               then open out/my/statics.html\n"
+           "  annulus statics my.toml --set statics.carrier_positions=64");
   examples(cache(limits(out(add_command(app, arguments, "tradeoff",
                                         "Measures all ways to compute the stage: error against time and memory")))),
            "  annulus tradeoff my.toml              then open out/my/tradeoff.html");
@@ -271,7 +275,7 @@ std::string system_message(const std::system_error& error) {
 
 /// Refuses what the limits of the system do not let end.
 void check_system_limits(const std::string& command, const Arguments& arguments) {
-  for (const char* computes : {"run", "solve", "dynamics", "tradeoff"})
+  for (const char* computes : {"run", "solve", "dynamics", "statics", "tradeoff"})
     if (command == computes) {
       ensure_stack();
       return reserve_blas_memory(arguments.threads);
@@ -318,6 +322,7 @@ int parse_and_run(int argc, char** argv) {
       {"run", [&] { run_command(arguments); }},
       {"solve", [&] { solve_command(arguments); }},
       {"dynamics", [&] { dynamics_command(arguments); }},
+      {"statics", [&] { statics_command(arguments); }},
       {"tradeoff", [&] { tradeoff_command(arguments); }},
       {"compare", [&] { compare_command(arguments); }},
       {"plan", [&] { plan_command(arguments); }},

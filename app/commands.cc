@@ -238,6 +238,30 @@ void tradeoff_command(const Arguments& arguments) {
              (options.out / "tradeoff.html").string());
 }
 
+void statics_command(const Arguments& arguments) {
+  const Scene scene = read_scene_with(arguments.scene, arguments.settings);
+  const auto options = run_options(arguments, scene);
+  check_out(options.out);
+  auto folder = folder_of(options, scene);
+  folder.check();
+  check_scene(scene, arguments, false);
+  hold(arguments, options);
+  remove_unfinished_files(options.out);
+  remove_unfinished_files(options.cache);
+  folder.begin();
+  const auto statics = make_system(scene)->statics(with_reuse(options));
+  folder.remove_earlier(is_of_statics);
+  for (const auto& warning : by_severity(statics.warnings))
+    if (warning.severity != Severity::note)
+      log::warn(warning.where.empty() ? warning.text : warning.where + ": " + warning.text);
+  if (arguments.json) {
+    fmt::print("{}\n", statics.json.dump(2));
+    return;
+  }
+  if (arguments.quiet) return;
+  fmt::print("{}\nreport  {}\n", statics.text, (options.out / "statics.html").string());
+}
+
 void compare_command(const Arguments& arguments) {
   const std::filesystem::path page = arguments.out.empty() ? "comparison.html" : arguments.out;
   const auto table = std::filesystem::path(page).replace_extension(".csv");

@@ -22,6 +22,7 @@ struct Arguments {
 void run_command(const Arguments& arguments);
 void solve_command(const Arguments& arguments);
 void dynamics_command(const Arguments& arguments);
+void statics_command(const Arguments& arguments);
 void tradeoff_command(const Arguments& arguments);
 void plan_command(const Arguments& arguments);
 void compare_command(const Arguments& arguments);

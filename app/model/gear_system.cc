@@ -106,4 +106,9 @@ std::vector<MeshModel> tables_to_solve(const Scene& nominal, const Scene& change
   return list;
 }
 
+GearSystem::Statics GearSystem::statics(const RunOptions&) const {
+  throw InputError(fmt::format("{}: stage.kind = {}: annulus statics computes planetary stages alone",
+                               scene().file.string(), scene().stage.kind));
+}
+
 }  // namespace annulus::app

@@ -115,6 +115,14 @@ class GearSystem {
   [[nodiscard]] virtual std::shared_ptr<const SolvedCoupling> coupling(const MeshResult& mesh,
                                                                        const RunOptions& options,
                                                                        const std::filesystem::path& folder) const;
+  /// Equilibrium over a turn, without inertia: writes OUT/statics.* and what belongs to it. Kinds that do not have it
+  /// throw InputError.
+  struct Statics {
+    std::string text;  ///< for the standard output
+    Json json;
+    std::vector<Warning> warnings;
+  };
+  [[nodiscard]] virtual Statics statics(const RunOptions& options) const;
   /// The ways that the cost study compares to make and solve the model of a variant; system and tables are referred
   /// to. Needs [dynamics].
   [[nodiscard]] virtual ModelWays ways(std::size_t variant, const std::vector<const MeshResult*>& tables) const;

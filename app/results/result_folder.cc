@@ -297,8 +297,9 @@ void ResultFolder::remove_earlier(const Which& which) {
 }
 
 bool is_name_of_run(const std::string& name) {
-  static const std::set<std::string> folders = {"cache",    "computed", "dynamics",    "errors",  "grid",  "mesh",
-                                                "optimise", "pictures", "sensitivity", "studies", "sweep", "tradeoff"};
+  static const std::set<std::string> folders = {
+      "cache",    "computed",    "dynamics", "errors",           "grid",    "mesh",  "optimise",
+      "pictures", "sensitivity", "statics",  "statics_pictures", "studies", "sweep", "tradeoff"};
   static const std::set<std::string> endings = {".csv", ".html", ".json", ".log", ".svg", ".txt"};
   return folders.contains(name) || endings.contains(fs::path(name).extension().string()) || is_unfinished(name);
 }
@@ -307,6 +308,11 @@ bool is_of_tradeoff(const std::string& name) {
   return name.starts_with("tradeoff/") || (name.starts_with("tradeoff") && name.find('/') == std::string::npos);
 }
 
-bool is_of_run(const std::string& name) { return !is_of_tradeoff(name); }
+bool is_of_statics(const std::string& name) {
+  if (name.starts_with("statics_pictures/") || name.find("/statics/") != std::string::npos) return true;
+  return name.starts_with("statics.") && name.find('/') == std::string::npos;
+}
+
+bool is_of_run(const std::string& name) { return !is_of_tradeoff(name) && !is_of_statics(name); }
 
 }  // namespace annulus::app

@@ -71,6 +71,7 @@ class ResultFolder : FileGuard {
 
 /// Whether a file of OUT is one that `annulus tradeoff` writes; the others are those of a run.
 [[nodiscard]] bool is_of_tradeoff(const std::string& name);
+[[nodiscard]] bool is_of_statics(const std::string& name);  ///< the same of `annulus statics`
 [[nodiscard]] bool is_of_run(const std::string& name);
 
 }  // namespace annulus::app

@@ -34,7 +34,7 @@ Declarations<MeshInput> declare_mesh(Declarations<MeshInput> t, const MeshKeys& 
            "Source of the mesh stiffness; every value except `computed` replaces the finite-element solution.")
       .required()
       .without_table("computed");
-  t.key("mean_N_per_m", &MeshInput::mean, "Mean stiffness of one mesh.")
+  t.key("mean_N_per_m", &MeshInput::mean, "Mean stiffness of one mesh, along the normal of its flanks.")
       .from(1e-3, 1e13)
       .needed_if(is("stiffness", {"constant", "harmonic", "rectangular"}));
   const std::vector<std::string> waves = {"harmonic", "rectangular"};

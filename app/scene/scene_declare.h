@@ -25,9 +25,20 @@ struct Unit {
 };
 // The longest suffix wins, so the compound ones stand first.
 inline constexpr Unit key_units[] = {
-    {"_kg_per_m3", "kg/m³", 1}, {"_N_per_m", "N/m", 1},      {"_kg_m2", "kg m²", 1},   {"_mm", "mm", units::mm},
-    {"_um", "µm", units::um},   {"_GPa", "GPa", units::GPa}, {"_kW", "kW", units::kW}, {"_rpm", "r/min", units::rpm},
-    {"_deg", "°", units::deg},  {"_Nm", "N m", 1},           {"_kg", "kg", 1},         {"_Nm_per_rad", "N m/rad", 1},
+    {"_kg_per_m3", "kg/m³", 1},
+    {"_N_per_m", "N/m", 1},
+    {"_kg_m2", "kg m²", 1},
+    {"_mm", "mm", units::mm},
+    {"_um", "µm", units::um},
+    {"_GPa", "GPa", units::GPa},
+    {"_kW", "kW", units::kW},
+    {"_rpm", "r/min", units::rpm},
+    {"_deg", "°", units::deg},
+    {"_Nm", "N m", 1},
+    {"_kg", "kg", 1},
+    {"_Nm_per_rad", "N m/rad", 1},
+    {"_N", "N", 1},
+    {"_m_per_s2", "m/s²", 1},
 };
 
 template <class T>

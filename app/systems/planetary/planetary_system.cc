@@ -15,6 +15,7 @@
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/planetary/space/statics.h"
 #include "app/systems/planetary/stage_warnings.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/mesh_names.h"
@@ -135,6 +136,15 @@ class PlanetarySystem final : public GearSystem {
         solve_coupling(scene(), geometry(), mesh.model, 1 / mesh.mean_stiffness().value, options, folder));
   }
 
+  [[nodiscard]] Statics statics(const RunOptions& options) const override {
+    const auto solved = solve_statics(scene(), geometry(), options);
+    write_statics(solved, options);
+    Statics result{statics_text(solved), statics_json(solved), {}};
+    for (const auto& ring : solved.rings)
+      result.warnings.insert(result.warnings.end(), ring.warnings.begin(), ring.warnings.end());
+    return result;
+  }
+
   [[nodiscard]] ModelWays ways(std::size_t ring, const std::vector<const MeshResult*>& tables) const override {
     return planetary_ways(scene(), geometry(), ring, *tables.front(), *tables.back());
   }
@@ -159,6 +169,8 @@ const std::vector<FigureSpec>& all_planetary_figures() {
     specs.insert(specs.end(), model.begin(), model.end());
     const auto& assemblies = tolerance_figures();
     specs.insert(specs.end(), assemblies.begin(), assemblies.end());
+    const auto& equilibrium = static_figures();
+    specs.insert(specs.end(), equilibrium.begin(), equilibrium.end());
     return specs;
   }();
   return list;

@@ -3,6 +3,7 @@
 #include "app/scene/gear_tables.h"
 #include "app/systems/planetary/pitch_deviations.h"
 #include "app/systems/planetary/planetary_scene.h"
+#include "app/systems/planetary/space/space_tables.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "geometry/flank_tolerances.h"
 
@@ -77,11 +78,13 @@ Table planetary_stage_table() {
   return stage.done();
 }
 
+constexpr const char* needs_weight = "all bodies have a weight";
+
 Table planetary_hub_gear_table(const char* path, const char* meaning, HubGearInput Scene::*member, const char* mate,
                                const Condition& computed) {
   Declarations gear(path, meaning, member);
   declare_teeth(gear, Flanks::external, mate);
-  declare_mass(gear);
+  declare_mass(gear).required_if(given("[gravity]"), needs_weight);
   declare_inertia(gear).required_if(given("[dynamics]"));
   declare_own_face(gear);
   declare_own_material(gear);
@@ -109,7 +112,7 @@ Table planet_bore_key(const Condition& computed) {
 Table carrier_table() {
   Declarations carrier("carrier", "The planet carrier.", &Scene::carrier);
   carrier.optional();
-  declare_mass(carrier, "Mass without planets.");
+  declare_mass(carrier, "Mass without planets.").required_if(given("[gravity]"), needs_weight);
   declare_inertia(carrier, "Moment of inertia about the axis, without planets.").required_if(given("[dynamics]"));
   return carrier.done();
 }
@@ -338,20 +341,24 @@ std::vector<Table> planetary_tables() {
   const auto mesh = [](const char* path, const char* meaning, auto member) {
     return declare_mesh({path, meaning, member}).done();
   };
-  return {planetary_stage_table(),
-          planetary_hub_gear_table("sun", "The sun gear.", &Scene::sun, "planet", sun_computed),
-          planetary_hub_gear_table("planet", "Each planet gear.", &Scene::planet, "sun", sun_computed || ring_computed),
-          planet_bore_key(sun_computed || ring_computed),
-          carrier_table(),
-          ring_table(),
-          planetary_errors_table(),
-          supports_table(),
-          mesh("mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.", &Scene::sun_planet),
-          mesh("mesh.ring_planet", "Stiffness of the ring mesh, prescribed instead of computed.", &Scene::ring_planet),
-          rim_coupling_key(),
-          tolerances_table(),
-          strain_gauge_table(),
-          optimised_ring_key()};
+  std::vector<Table> tables = {
+      planetary_stage_table(),
+      planetary_hub_gear_table("sun", "The sun gear.", &Scene::sun, "planet", sun_computed),
+      planetary_hub_gear_table("planet", "Each planet gear.", &Scene::planet, "sun", sun_computed || ring_computed),
+      planet_bore_key(sun_computed || ring_computed),
+      carrier_table(),
+      ring_table(),
+      planetary_errors_table(),
+      supports_table(),
+      mesh("mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.", &Scene::sun_planet),
+      mesh("mesh.ring_planet", "Stiffness of the ring mesh, prescribed instead of computed.", &Scene::ring_planet),
+      rim_coupling_key(),
+      tolerances_table(),
+      strain_gauge_table(),
+      optimised_ring_key()};
+  auto space = space_tables();
+  std::move(space.begin(), space.end(), std::back_inserter(tables));
+  return tables;
 }
 
 }  // namespace annulus::app

@@ -9,6 +9,7 @@
 
 #include "app/scene/key_checks.h"
 #include "app/systems/planetary/pitch_deviations.h"
+#include "app/systems/planetary/space/space_tables.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -51,6 +52,7 @@ void mirror(Scene& scene) {
     gauge.angle = -gauge.angle;
     gauge.offset = -gauge.offset;
   }
+  mirror_space(scene);
   auto& e = scene.errors;
   mirror_pitch_deviations(scene);
   for (auto* phases : {&e.planet_eccentricity_phase, &e.planet_pin_position_phase})

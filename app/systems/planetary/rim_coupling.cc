@@ -60,6 +60,10 @@ std::string coupling_id(const Scene& scene, const GearGeometry& geometry, const 
                      material_of(scene, ring).density);
 }
 
+RimCoupling asked_coupling(const Scene& scene) {
+  return scene.dynamics ? scene.dynamics->rim_coupling : RimCoupling::automatic;
+}
+
 const RingInput& ring_of(const Scene& scene, const MeshModel& model) {
   return *std::find_if(scene.rings.begin(), scene.rings.end(), [&](const auto& r) { return r.name == model.ring; });
 }
@@ -117,7 +121,7 @@ CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved)
   constexpr const char* asked = "the scene asks for it (rim_coupling)";
   const double share = solved.largest() / solved.path_compliance;
   const auto percent = [](double x) { return fmt::format("{:.2g} %", 100 * x); };
-  switch (scene.dynamics->rim_coupling) {
+  switch (asked_coupling(scene)) {
     case RimCoupling::none:
       return {RimCoupling::none, asked};
     case RimCoupling::statical:
@@ -136,7 +140,7 @@ CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved)
 }
 
 bool is_negligible(const Scene& scene, const SolvedCoupling& solved) {
-  return scene.dynamics->rim_coupling == RimCoupling::automatic && solved.coupling.modes.empty() &&
+  return asked_coupling(scene) == RimCoupling::automatic && solved.coupling.modes.empty() &&
          coupling_choice(scene, solved).taken == RimCoupling::none;
 }
 
@@ -156,7 +160,11 @@ std::optional<dynamics::PlanetaryStage> with_omitted_coupling(const dynamics::Pl
 }
 
 bool may_be_coupled(const Scene& scene, const MeshModel& model) {
-  if (!scene.dynamics || scene.dynamics->rim_coupling == RimCoupling::none || scene.stage.planets == 1) return false;
+  return scene.dynamics && may_be_coupled_at_rest(scene, model);
+}
+
+bool may_be_coupled_at_rest(const Scene& scene, const MeshModel& model) {
+  if (asked_coupling(scene) == RimCoupling::none || scene.stage.planets == 1) return false;
   if (model.mesh != ring_planet || !model.computed() || rests_in_bore(model.problem->structure)) return false;
   if (model.has_elements()) return true;
   return scene.fidelity == Fidelity::automatic && scene.accuracy < fem::very_rough_accuracy &&

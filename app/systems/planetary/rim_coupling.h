@@ -53,6 +53,8 @@ struct CouplingChoice {
 /// out. It takes elements: with formulas it is solved where the planner chose these for a ring on single supports, and
 /// the accuracy is not very rough.
 [[nodiscard]] bool may_be_coupled(const Scene& scene, const MeshModel& model);
+/// The same for an equilibrium, which needs no dynamics.
+[[nodiscard]] bool may_be_coupled_at_rest(const Scene& scene, const MeshModel& model);
 /// From the cache if unchanged, else solved; in `folder` (OUT/<ring>) as ring_coupling.csv, ring_modes.csv and
 /// ring_compliance.csv.
 /// `mesh_compliance` (m/N) is that of the mesh by its table.

@@ -10,7 +10,7 @@ void declare_ring_body(Declarations<RingInput>& ring) {
   ring.key("name", &RingInput::name, "Name of the ring and of the folder of its results.").required();
   declare_structure(ring);
   declare_teeth(ring, Flanks::internal, "planet");
-  declare_mass(ring);
+  declare_mass(ring).required_if(given("[gravity]"), "all bodies have a weight");
   declare_inertia(ring).required_if(given("[dynamics]"));
   declare_own_face(ring);
   declare_own_material(ring);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "app/model/excitation.h"
 #include "app/plan/accuracy_choice.h"
@@ -19,37 +20,55 @@ dynamics::BodyErrors deviations_of(const BodyErrorInput& e) {
 
 }  // namespace
 
-dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
-                                    const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
-  if (!scene.dynamics) throw InternalError("internal error: dynamics of a scene without [dynamics]");
-  const auto& input = scene.rings.at(ring);
+MeshInput in_transverse_section(const MeshInput& mesh, const geometry::GearPair& pair) {
+  MeshInput result = mesh;
+  if (result.mean) *result.mean *= std::pow(std::cos(pair.pinion().base_helix_angle()), 2);
+  return result;
+}
+
+dynamics::PlanetaryStage unsupported_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                           const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
   const auto& set = geometry.rings.at(ring).set;
   const auto& point = geometry.operating_point;
   const auto& e = scene.errors;
 
   dynamics::PlanetaryStage stage;
   dynamics::set_kinematics(stage, set);
-  stage.sun.mass = *scene.sun.mass;
-  stage.sun.inertia = *scene.sun.inertia;
   stage.sun.errors = deviations_of(e.sun);
-  stage.ring.mass = *input.mass;
-  stage.ring.inertia = *input.inertia;
   stage.ring.errors = deviations_of(e.ring);
-  stage.carrier.mass = *scene.carrier.mass;
-  stage.carrier.inertia = *scene.carrier.inertia;
   stage.carrier.errors = deviations_of(e.carrier);
-  stage.planet.mass = *scene.planet.mass;
-  stage.planet.inertia = *scene.planet.inertia;
   for (std::size_t n = 0; n < static_cast<std::size_t>(scene.stage.planets); ++n) {
     stage.planet_errors.push_back({{e.planet_eccentricity[n], e.planet_eccentricity_phase[n]},
                                    {e.planet_pin_position[n], e.planet_pin_position_phase[n]}});
   }
   add_pitch_deviations(scene, set, sun_mesh, ring_mesh, stage);
-  const auto dependence = scene.dynamics->load_dependence;
-  stage.sun_mesh =
-      excitation_of(scene.sun_planet, sun_mesh, point.mean_mesh_force, dependence, set.sun_mesh().back_flank_phase());
-  stage.ring_mesh = excitation_of(scene.ring_planet, ring_mesh, point.mean_mesh_force, dependence,
-                                  set.ring_mesh().back_flank_phase());
+  const auto dependence = scene.dynamics ? scene.dynamics->load_dependence : dynamics::LoadDependence::table;
+  const auto excitation = [&](const MeshInput& input, const MeshResult& mesh, const geometry::GearPair& pair) {
+    return excitation_of(in_transverse_section(input, pair), mesh, point.mean_mesh_force, dependence,
+                         pair.back_flank_phase());
+  };
+  stage.sun_mesh = excitation(scene.sun_planet, sun_mesh, set.sun_mesh());
+  stage.ring_mesh = excitation(scene.ring_planet, ring_mesh, set.ring_mesh());
+  stage.held = scene.stage.held;
+  stage.carrier_speed = point.computed_speed(geometry::StageMember::carrier);
+  stage.ring_speed = point.computed_speed(geometry::StageMember::ring);
+  stage.sun_torque = point.sun_torque;
+  return stage;
+}
+
+dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                    const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
+  if (!scene.dynamics) throw InternalError("internal error: dynamics of a scene without [dynamics]");
+  auto stage = unsupported_stage(scene, geometry, ring, sun_mesh, ring_mesh);
+  const auto& input = scene.rings.at(ring);
+  stage.sun.mass = *scene.sun.mass;
+  stage.sun.inertia = *scene.sun.inertia;
+  stage.ring.mass = *input.mass;
+  stage.ring.inertia = *input.inertia;
+  stage.carrier.mass = *scene.carrier.mass;
+  stage.carrier.inertia = *scene.carrier.inertia;
+  stage.planet.mass = *scene.planet.mass;
+  stage.planet.inertia = *scene.planet.inertia;
   const auto supports =
       effective_supports(scene, dynamics::mean_stiffness(stage.sun_mesh), dynamics::mean_stiffness(stage.ring_mesh));
   stage.sun.support = supports.sun;
@@ -71,10 +90,6 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
-  stage.held = scene.stage.held;
-  stage.carrier_speed = point.computed_speed(geometry::StageMember::carrier);
-  stage.ring_speed = point.computed_speed(geometry::StageMember::ring);
-  stage.sun_torque = point.sun_torque;
   return stage;
 }
 

@@ -34,6 +34,14 @@ struct StageResponse {
   bool reused = false;
 };
 
+/// A prescribed stiffness acts along the normal of the flanks, the lumped model of a stage along their line of action
+/// in the transverse section: its mean times cos^2 of the base helix angle.
+[[nodiscard]] MeshInput in_transverse_section(const MeshInput& mesh, const geometry::GearPair& pair);
+
+/// The stage of one ring without masses, supports and what needs [dynamics]: kinematics, errors, meshes, torque.
+[[nodiscard]] dynamics::PlanetaryStage unsupported_stage(const Scene& scene, const GearGeometry& geometry,
+                                                         std::size_t ring, const MeshResult& sun_mesh,
+                                                         const MeshResult& ring_mesh);
 /// The stage of one ring as lumped masses: the scene, its kinematics and its mesh stiffnesses put together.
 [[nodiscard]] dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                                   const MeshResult& sun_mesh, const MeshResult& ring_mesh);

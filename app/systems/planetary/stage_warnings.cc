@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/model/scene_warnings.h"
+#include "app/systems/planetary/space/space_input.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "core/units.h"
@@ -75,6 +76,10 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
                                   "rings equalise the planet loads; give a stiffness, or \"rigid\"",
                                   fmt::join(keys, ", "))});
   warn_of_tilting_pins(list, scene, geometry);
+  if (scene.dynamics && scene.own<SpaceInput>().any())
+    list.push_back({"plane_model", Severity::warning,
+                    "the lumped model is plane: [[bearing]], [[load]] and [gravity] take part in annulus statics "
+                    "alone; bearings here are those of [supports]"});
   warn_of_gauges(list, scene);
   const auto& e = scene.errors;
   if (scene.tolerances && !(e.sun_pitch.empty() && e.planet_pitch.empty() && e.ring_pitch.empty()))

@@ -52,7 +52,7 @@ class Assembly {
       : stage_(stage),
         time_(t),
         space_(!stage.reasons_for_space().empty()),
-        result_{Mechanism(stage.plane.carrier.radius), {}, {}} {}
+        result_{.mechanism = Mechanism(stage.plane.carrier.radius)} {}
 
   StageMechanism build() && {
     for (const auto kind : central_bodies)
@@ -67,6 +67,7 @@ class Assembly {
     add_rotations();
     for (int n = 0; n < stage_.planets(); ++n) result_.meshes.push_back(add_mesh(true, n));
     for (int n = 0; n < stage_.planets(); ++n) result_.meshes.push_back(add_mesh(false, n));
+    if (stage_.plane.ring_coupling) couple();
     add_loads();
     return std::move(result_);
   }
@@ -143,7 +144,7 @@ class Assembly {
     StageBearing b;
     b.body = body;
     b.axial = b.tilt = rigid;
-    b.name = SpatialStage::name_of(body);
+    b.name = SpatialStage::name_of(body) + (body.kind == Kind::planet ? " bearing" : " support");
     if (body.kind == Kind::planet) {
       const auto bearing = stage_.plane.planet_bearing(body.planet);
       b.on = {Kind::carrier};
@@ -197,20 +198,60 @@ class Assembly {
     };
     const double alpha = of_sun ? plane.sun_working_angle : plane.ring_working_angle;
     StageMechanism::Mesh mesh;
-    using Flank = StageFace::Flank;
-    mesh.law = face.law(cycles + phase, Flank::driving);
-    mesh.driving = add_flank(of_sun, n, *mesh.law, mesh.law, 1, error(alpha));
+    mesh.law = face.law(cycles + phase, StageFace::Flank::driving);
+    auto driving = flank(of_sun, n, *mesh.law, 1, error(alpha));
+    if (!of_sun && plane.ring_coupling)
+      coupled_.push_back(std::move(driving));
+    else
+      mesh.driving = add_flank(of_sun, n, std::move(driving), mesh.law);
     if (face.backlash) {
-      mesh.back_law = face.law(cycles + phase, Flank::back);
+      mesh.back_law = face.law(cycles + phase, StageFace::Flank::back);
       const double apart = *face.backlash / std::cos(stage_.base_helix_angle) - error(-alpha);
-      mesh.back = add_flank(of_sun, n, *mesh.back_law, mesh.back_law, -1, apart);
+      mesh.back = add_flank(of_sun, n, flank(of_sun, n, *mesh.back_law, -1, apart), mesh.back_law);
     }
     return mesh;
   }
 
+  /// All ring meshes as one element.
+  void couple() {
+    const auto planets = static_cast<std::size_t>(stage_.planets());
+    const auto& plane = stage_.plane;
+    const auto& coupling = *plane.ring_coupling;
+    const double offset = plane.ring_tooth_offset.empty() ? 0.0 : plane.ring_tooth_offset.front();
+    const double lag = plane.ring_phase_lag.empty() ? 0.0 : plane.ring_phase_lag.front();
+    const double position = plane.mesh_rate() * time_ + offset - lag, c = std::cos(stage_.base_helix_angle);
+    const auto curves = compliance_curves(coupling.compliance, coupling.per_cycle);
+    Eigen::MatrixXd compliance(planets, planets);
+    std::size_t curve = 0;
+    for (Eigen::Index i = 0; i < compliance.rows(); ++i)
+      for (Eigen::Index j = 0; j <= i; ++j) compliance(i, j) = compliance(j, i) = c * c * curves[curve++](position);
+    std::vector<std::shared_ptr<const FaceLaw>> laws;
+    for (std::size_t n = 0; n < planets; ++n) laws.push_back(result_.meshes[planets + n].law);
+    result_.coupling = std::make_shared<CoupledFaces>(std::move(laws), std::move(compliance));
+    Flank all{Eigen::MatrixXd(result_.coupling->size(), 6 * static_cast<Eigen::Index>(mechanism().bodies())),
+              Eigen::VectorXd(result_.coupling->size())};
+    for (std::size_t n = 0; n < planets; ++n) {
+      const int first = result_.coupling->first(n);
+      result_.meshes[planets + n].first = first;
+      all.measures.middleRows(first, coupled_[n].measures.rows()) = coupled_[n].measures;
+      all.offset.segment(first, coupled_[n].offset.size()) = coupled_[n].offset;
+    }
+    const int element = mechanism().add_element("ring meshes", all.measures, result_.coupling, all.offset);
+    for (std::size_t n = 0; n < planets; ++n) result_.meshes[planets + n].driving = element;
+  }
+
+  struct Flank {
+    Eigen::MatrixXd measures;
+    Eigen::VectorXd offset;
+  };
+
+  int add_flank(bool of_sun, int n, Flank flank, std::shared_ptr<const ElasticLaw> law) {
+    return mechanism().add_element(fmt::format("{}_planet{}", of_sun ? "sun" : "ring", n + 1),
+                                   std::move(flank.measures), std::move(law), std::move(flank.offset));
+  }
+
   /// `side`: 1 for driving flanks, -1 for back flanks. `gap`: m, of the transverse section.
-  int add_flank(bool of_sun, int n, const FaceLaw& law, std::shared_ptr<const ElasticLaw> shared, double side,
-                double gap) {
+  [[nodiscard]] Flank flank(bool of_sun, int n, const FaceLaw& law, double side, double gap) {
     const auto& plane = stage_.plane;
     const double phi = plane.planet_angles[static_cast<std::size_t>(n)];
     const double c = std::cos(stage_.base_helix_angle), s = std::sin(stage_.base_helix_angle);
@@ -230,8 +271,7 @@ class Assembly {
       const double z = middle + law.stations()[static_cast<std::size_t>(i)];
       measures.row(i) = mechanism().displacement(first, second, pitch_point + z * Vector3d::UnitZ(), normal);
     }
-    return mechanism().add_element(fmt::format("{}_planet{}", of_sun ? "sun" : "ring", n + 1), measures,
-                                   std::move(shared), Eigen::VectorXd::Constant(count, c * gap));
+    return {measures, Eigen::VectorXd::Constant(count, c * gap)};
   }
 
   void add_loads() {
@@ -252,6 +292,7 @@ class Assembly {
   double time_;
   bool space_;
   StageMechanism result_;
+  std::vector<Flank> coupled_;  // driving flanks of ring meshes
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/elastic_law.h"
+#include "dynamics/spatial/coupled_faces.h"
 #include "dynamics/spatial/mechanism.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
@@ -83,6 +84,9 @@ struct StageFace {
 /// rho(z) ends in the working pitch point at z; e is the transmission error of the plane (sun_mesh_errors()). Back
 /// flanks have cos a, and sigma s, of the other sign.
 ///
+/// With `plane.ring_coupling` the driving flanks of the ring meshes act on each other through the ring (CoupledFaces);
+/// its modes have no part in an equilibrium.
+///
 /// A body that `bearings` name is held by these alone. Others have the radial supports of `plane` in the middle of the
 /// face, and neither move along the axis nor tilt.
 struct SpatialStage {
@@ -111,9 +115,10 @@ struct StageMechanism {
   Mechanism mechanism;
   struct Mesh {
     int driving = -1, back = -1;  ///< elements; -1: none
+    int first = 0;                ///< coordinate of the driving element that is the first station of this mesh
     std::shared_ptr<const FaceLaw> law, back_law;
   };
-  std::vector<Mesh> meshes;  ///< sun meshes of planets 0 ... N-1, then ring meshes
+  std::vector<Mesh> meshes{};  ///< sun meshes of planets 0 ... N-1, then ring meshes
   /// A bearing, or the support that a body without one has.
   struct Bearing {
     std::string name;
@@ -124,9 +129,10 @@ struct StageMechanism {
     /// x, y, z, about x, about y: the element and coordinate that resists it, or the hold; -1: nothing.
     std::array<int, 5> element{-1, -1, -1, -1, -1}, coordinate{}, held{-1, -1, -1, -1, -1};
   };
-  std::vector<Bearing> bearings;
-  int carrier_hold = -1;  ///< of its rotation, which bears its torque
-  int ring_hold = -1;     ///< of its rotation; -1: it has an elastic torsional support
+  std::vector<Bearing> bearings{};
+  std::shared_ptr<const CoupledFaces> coupling{};  ///< of the driving flanks of the ring meshes; null without
+  int carrier_hold = -1;                           ///< of its rotation, which bears its torque
+  int ring_hold = -1;                              ///< of its rotation; -1: it has an elastic torsional support
 };
 /// At time t (s). Throws InputError where bearings, loads and bodies do not fit.
 [[nodiscard]] StageMechanism assemble(const SpatialStage& stage, double t);

@@ -13,12 +13,15 @@ namespace annulus::dynamics {
 
 namespace {
 
-StaticMesh mesh_in(const StageMechanism::Mesh& mesh, const Mechanism::Equilibrium& at, double normal_factor) {
+/// `loss`: m, of its approach through the other meshes.
+StaticMesh mesh_in(const StageMechanism::Mesh& mesh, const Mechanism::Equilibrium& at, double normal_factor,
+                   double loss) {
   StaticMesh result;
   const auto& law = *mesh.law;
   const auto element = static_cast<std::size_t>(mesh.driving);
-  const auto& state = at.state[element];
-  const Eigen::VectorXd line = law.line_load(at.deflection[element], state);
+  const Eigen::VectorXd approach = (at.deflection[element].segment(mesh.first, law.size()).array() - loss).matrix();
+  const auto state = law.at(approach);
+  const Eigen::VectorXd line = law.line_load(approach, state);
   result.line_load.assign(line.begin(), line.end());
   const double force = state.force.sum();
   result.force = normal_factor * force;
@@ -69,8 +72,12 @@ StaticPosition solved_position(const SpatialStage& stage, double cycles) {
   p.residual_relative = at.residual_relative;
   const double normal_factor = std::cos(stage.base_helix_angle);
   const auto planets = static_cast<std::size_t>(stage.planets());
-  for (std::size_t m = 0; m < made.meshes.size(); ++m)
-    (m < planets ? p.sun_meshes : p.ring_meshes).push_back(mesh_in(made.meshes[m], at, normal_factor));
+  Eigen::VectorXd losses = Eigen::VectorXd::Zero(stage.planets());
+  if (made.coupling) losses = made.coupling->losses(at.state[static_cast<std::size_t>(made.meshes.back().driving)]);
+  for (std::size_t n = 0; n < planets; ++n) {
+    p.sun_meshes.push_back(mesh_in(made.meshes[n], at, normal_factor, 0));
+    p.ring_meshes.push_back(mesh_in(made.meshes[planets + n], at, normal_factor, losses[static_cast<Eigen::Index>(n)]));
+  }
   for (const auto& bearing : made.bearings) p.bearings.push_back(bearing_in(bearing, at));
   for (int b = 0; b < made.mechanism.bodies(); ++b) {
     const bool planet = b >= 3;

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/systems/planetary/spatial_stage.h"
+
+namespace annulus::app {
+
+/// What the scene of a planetary stage has in three dimensions; SI.
+
+struct BearingInput {
+  using Body = dynamics::StageBody::Kind;
+  std::string name;
+  Body body = Body::carrier;
+  std::optional<int> planet;  ///< 1, 2, ...; absent: every planet
+  std::optional<Body> on;     ///< absent: the housing, of planets the carrier
+  dynamics::StageFrame frame = dynamics::StageFrame::housing;
+  double place = 0;
+  std::optional<double> radial, x, y;
+  double axial = 0, tilt = 0;
+  double clearance = 0, axial_clearance = 0;
+  bool load_zone = true;
+  std::vector<double> matrix;
+};
+
+struct LoadInput {
+  std::string name;
+  dynamics::StageBody::Kind body = dynamics::StageBody::Kind::carrier;
+  std::optional<int> planet;
+  dynamics::StageFrame frame = dynamics::StageFrame::housing;
+  std::vector<double> point, force, moment;  ///< three values, or none
+};
+
+struct GravityInput {
+  double acceleration = 0, direction = 0, inclination = 0;
+  double sun = 0, planet = 0, ring = 0, carrier = 0;  ///< m, centres of mass on the axes
+};
+
+struct StaticsInput {
+  int places = 0;
+  std::optional<int> phases;
+};
+
+/// Inputs of planetary stages alone (Scene::own).
+struct SpaceInput {
+  std::vector<BearingInput> bearings;
+  std::vector<LoadInput> loads;
+  std::optional<GravityInput> gravity;
+  StaticsInput statics;
+
+  [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity.has_value(); }
+};
+
+}  // namespace annulus::app

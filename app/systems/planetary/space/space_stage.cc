@@ -1,0 +1,263 @@
+#include "app/systems/planetary/space/space_stage.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "app/model/excitation.h"
+#include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/planetary/space/space_input.h"
+#include "app/systems/planetary/stage_response.h"
+#include "app/systems/planetary/stage_supports.h"
+#include "core/errors.h"
+#include "core/units.h"
+#include "dynamics/spatial/even_face.h"
+#include "geometry/profile.h"
+
+namespace annulus::app {
+
+namespace {
+
+using dynamics::StageBody;
+using dynamics::StageFace;
+using Body = StageBody::Kind;
+
+Eigen::Vector3d vector_of(const std::vector<double>& list) {
+  return list.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(list[0], list[1], list[2]);
+}
+
+/// Every planet where none is named.
+std::vector<StageBody> bodies_of(const Scene& scene, Body kind, const std::optional<int>& planet) {
+  if (kind != Body::planet) return {{kind}};
+  if (planet) return {{kind, *planet - 1}};
+  std::vector<StageBody> all;
+  for (int n = 0; n < scene.stage.planets; ++n) all.push_back({kind, n});
+  return all;
+}
+
+/// "rows", of planets one by one "rows planet2".
+std::string name_of(const std::string& name, const StageBody& body, bool of_all) {
+  return of_all ? fmt::format("{} {}", name, dynamics::SpatialStage::name_of(body)) : name;
+}
+
+void add_bearings(const Scene& scene, dynamics::SpatialStage& stage) {
+  for (const auto& input : scene.own<SpaceInput>().bearings)
+    for (const auto& body : bodies_of(scene, input.body, input.planet)) {
+      dynamics::StageBearing b;
+      const bool planet = body.kind == Body::planet;
+      b.name = name_of(input.name, body, planet && !input.planet);
+      b.body = body;
+      b.on = {input.on.value_or(planet ? Body::carrier : Body::housing)};
+      b.frame = planet ? dynamics::StageFrame::planet : input.frame;
+      b.place = input.place;
+      b.x = input.x.value_or(input.radial.value_or(0));
+      b.y = input.y.value_or(input.radial.value_or(0));
+      b.axial = input.axial;
+      b.tilt = input.tilt;
+      b.play = input.clearance / 2;
+      b.load_zone = input.load_zone;
+      b.axial_play = input.axial_clearance / 2;
+      if (!input.matrix.empty())
+        b.matrix = Eigen::Map<const Eigen::Matrix<double, 5, 5, Eigen::RowMajor>>(input.matrix.data());
+      stage.bearings.push_back(std::move(b));
+    }
+}
+
+void add_loads(const Scene& scene, std::size_t ring, dynamics::SpatialStage& stage) {
+  const auto& space = scene.own<SpaceInput>();
+  for (const auto& input : space.loads)
+    for (const auto& body : bodies_of(scene, input.body, input.planet)) {
+      const bool planet = body.kind == Body::planet;
+      stage.loads.push_back({name_of(input.name, body, planet && !input.planet), body, input.frame,
+                             vector_of(input.point), vector_of(input.force), vector_of(input.moment)});
+    }
+  if (!space.gravity) return;
+  const auto& g = *space.gravity;
+  const double in_plane = g.acceleration * std::cos(g.inclination);
+  stage.gravity = {in_plane * std::cos(g.direction), in_plane * std::sin(g.direction),
+                   g.acceleration * std::sin(g.inclination)};
+  stage.weights = {{{Body::sun}, *scene.sun.mass, g.sun},
+                   {{Body::ring}, *scene.rings.at(ring).mass, g.ring},
+                   {{Body::carrier}, *scene.carrier.mass, g.carrier}};
+  for (int n = 0; n < scene.stage.planets; ++n)
+    stage.weights.push_back({{Body::planet, n}, *scene.planet.mass, g.planet});
+}
+
+/// Half the total normal backlash as the lumped model has it, both flanks; that of the gears where it does not say.
+double backlash_of(const Scene& scene, const MeshInput& mesh, const geometry::GearPair& pair) {
+  if (mesh.half_backlash) return 2 * *mesh.half_backlash;
+  if (scene.dynamics) return 2 * scene.dynamics->half_backlash;
+  return std::max(0.0, pair.normal_backlash());
+}
+
+/// The law of a whole mesh along the normal at a phase, and the scale of its stiffness.
+struct WholeMesh {
+  dynamics::MeshLaw law;
+  double stiffness = 0;  ///< N/m
+};
+
+/// `c`: cos(base helix angle): forces are 1 / c times those of the transverse section, approaches c times.
+WholeMesh whole_mesh(const dynamics::MeshExcitation& excitation, double phase, double c, double factor, bool back) {
+  const auto linear = [&](double stiffness) {
+    const double k = factor * stiffness / (c * c);
+    return WholeMesh{[k](double d) { return dynamics::MeshPoint{k * d * d / 2, k * d, k}; }, k};
+  };
+  if (const auto* constant = std::get_if<dynamics::ConstantStiffness>(&excitation)) return linear(constant->mean);
+  if (const auto* wave = std::get_if<dynamics::HarmonicStiffness>(&excitation))
+    return linear(wave->mean * (1 + wave->ripple * std::cos(2 * std::numbers::pi * (phase - wave->phase_shift))));
+  if (const auto* wave = std::get_if<dynamics::RectangularStiffness>(&excitation)) {
+    const double x = phase - wave->phase_shift;
+    const bool high = x - std::floor(x) < wave->duty;
+    return linear(wave->mean * (1 + wave->ripple * ((high ? 1 : 0) - wave->duty)));
+  }
+  const auto& table = std::get<dynamics::TableStiffness>(excitation);
+  // Back flanks pass their contact the other way.
+  const double at = back ? table.back_flank_phase.value_or(2 * phase) - phase : phase;
+  if (!table.surface) return linear(table.secant(at));
+  const auto surface = table.surface;
+  const double scale = table.secant.mean();
+  // A mesh that is stiffer by a factor has the same forces at deflections smaller by it.
+  return {[surface, at, c, factor](double d) {
+            const double g = d / c * factor;
+            const auto [force, tangent] = (*surface)(at, g);
+            return dynamics::MeshPoint{surface->energy(at, g) / factor, force / c, tangent * factor / (c * c)};
+          },
+          factor * scale / (c * c)};
+}
+
+/// m, of the transverse section: what the flanks are apart without load at a phase.
+double unloaded_error(const dynamics::MeshExcitation& excitation, double phase) {
+  const auto* table = std::get_if<dynamics::TableStiffness>(&excitation);
+  return table ? table->unloaded_te(phase - table->phase_shift) : 0.0;
+}
+
+/// Lead modifications and misalignment, m, at a place on the common face from its middle. What flanks have in common
+/// with those of the tables is in the tables' unloaded transmission error: of those the least gap is taken off.
+std::vector<double> gaps_along(const geometry::GearPair& pair, double misalignment, const std::vector<double>& stations,
+                               bool in_table) {
+  const auto face = pair.common_face();
+  const geometry::ToothProfile pinion(pair.pinion()), wheel(pair.wheel());
+  std::vector<double> gaps;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double z : stations) {
+    const double from_low = z + face.width / 2;
+    gaps.push_back(pinion.lead_modification(from_low + face.pinion.below) +
+                   wheel.lead_modification(from_low + face.wheel.below) + misalignment * z / face.width);
+    least = std::min(least, gaps.back());
+  }
+  if (in_table)
+    for (double& gap : gaps) gap -= least;
+  return gaps;
+}
+
+StageFace face_of(const Scene& scene, const geometry::GearPair& pair, const MeshInput& input,
+                  const dynamics::MeshExcitation& excitation, double misalignment, double factor, int stretches) {
+  StageFace face;
+  const auto common = pair.common_face();
+  const auto& p = pair.pinion().parameters();
+  face.middle = p.axial_offset - p.face_width / 2 + common.pinion.below + common.width / 2;
+  constexpr double rounding = 1e-9;  // of widths and offsets in millimetres
+  if (std::abs(face.middle) < rounding * common.width) face.middle = 0;
+  std::vector<double> stations;
+  for (int i = 0; i <= stretches; ++i) stations.push_back(common.width * (static_cast<double>(i) / stretches - 0.5));
+  auto gaps = gaps_along(pair, misalignment, stations, input.stiffness == StiffnessShape::computed);
+  for (std::size_t i = 0; i < gaps.size() / 2; ++i)
+    if (std::abs(gaps[i] - gaps[gaps.size() - 1 - i]) > rounding * 1e-3) face.symmetric = false;
+  if (const double backlash = backlash_of(scene, input, pair); std::isfinite(backlash)) face.backlash = backlash;
+  const double c = std::cos(pair.pinion().base_helix_angle());
+  face.law = [excitation, stations, gaps, c, factor](double phase, StageFace::Flank flank) {
+    const bool back = flank == StageFace::Flank::back;
+    auto [law, stiffness] = whole_mesh(excitation, phase, c, factor, back);
+    auto gap = gaps;
+    const double unloaded = c * unloaded_error(excitation, phase) * (back ? -1 : 1);
+    for (double& g : gap) g = (back ? 0 : g) + unloaded;
+    return std::make_shared<dynamics::EvenFace>(std::move(law), stiffness, stations, std::move(gap));
+  };
+  return face;
+}
+
+bool lead_crowned(const GearInput& gear) { return gear.lead_crowning != 0; }
+
+dynamics::SpatialStage stage_of(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                const MeshResult& sun_mesh, const MeshResult& ring_mesh, const FaceChoice& choice) {
+  const auto& set = geometry.rings.at(ring).set;
+  dynamics::SpatialStage stage;
+  stage.plane = unsupported_stage(scene, geometry, ring, sun_mesh, ring_mesh);
+  auto& plane = stage.plane;
+  const auto supports = supports_with_pins(scene);
+  plane.sun.support = supports.sun;
+  plane.ring.support = supports.ring;
+  plane.carrier.support = supports.carrier;
+  plane.ring.torsional_support = torsional_support(scene, geometry::StageMember::ring);
+  const bool play = supports.planet_clearance > 0;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(scene.stage.planets); ++n)
+    plane.planet_bearings.push_back({.radial = supports.planet_bearing(&SupportInput::planet_radial, n),
+                                     .tangential = supports.planet_bearing(&SupportInput::planet_tangential, n),
+                                     .play = supports.planet_clearance / 2,
+                                     .pin = play ? pin_stiffness(scene) : rigid});
+  const auto& planet = set.planet();
+  stage.base_helix_angle = planet.helix_angle() == 0 ? 0.0 : planet.base_helix_angle();
+  stage.planet_working_radius_sun = planet.base_radius() / std::cos(set.sun_mesh().working_pressure_angle());
+  stage.planet_working_radius_ring = planet.base_radius() / std::cos(set.ring_mesh().working_pressure_angle());
+  stage.sun_face = face_of(scene, set.sun_mesh(), scene.sun_planet, plane.sun_mesh,
+                           scene.errors.sun_planet_misalignment, choice.sun_factor, choice.stretches);
+  stage.ring_face = face_of(scene, set.ring_mesh(), scene.ring_planet, plane.ring_mesh,
+                            scene.errors.ring_planet_misalignment, choice.ring_factor, choice.stretches);
+  // Of the ring's modes nothing moves in an equilibrium: with them the compliance is the same.
+  if (ring_mesh.coupling && coupling_choice(scene, *ring_mesh.coupling).taken != RimCoupling::none)
+    plane.ring_coupling = taken_coupling(*ring_mesh.coupling, RimCoupling::statical);
+  add_bearings(scene, stage);
+  add_loads(scene, ring, stage);
+  return stage;
+}
+
+}  // namespace
+
+bool varies_in_cycle(const MeshInput& mesh) { return mesh.stiffness != StiffnessShape::constant; }
+
+dynamics::SpatialStage make_spatial_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                          const MeshResult& sun_mesh, const MeshResult& ring_mesh,
+                                          const FaceChoice& choice) {
+  // All of a face that is even is alike while nothing tilts.
+  const auto whole = stage_of(scene, geometry, ring, sun_mesh, ring_mesh, {choice.sun_factor, choice.ring_factor, 1});
+  const bool crowned = lead_crowned(scene.sun) || lead_crowned(scene.planet) || lead_crowned(scene.rings[ring]);
+  if (whole.reasons_for_space().empty() && !crowned) return whole;
+  return stage_of(scene, geometry, ring, sun_mesh, ring_mesh, choice);
+}
+
+std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const dynamics::SpatialStage& stage) {
+  std::vector<Warning> list;
+  const auto& name = scene.rings.at(ring).name;
+  if (!stage.reasons_for_space().empty()) {
+    std::vector<std::string> held;
+    for (const auto kind : {Body::sun, Body::ring, Body::carrier})
+      if (!stage.has_bearings({kind})) held.push_back(dynamics::SpatialStage::name_of({kind}));
+    for (int n = 0; n < stage.planets(); ++n)
+      if (!stage.has_bearings({Body::planet, n})) {
+        held.emplace_back("planets");
+        break;
+      }
+    if (!held.empty())
+      list.push_back({"held_in_space", Severity::warning,
+                      fmt::format("no [[bearing]] holds the {}: they are assumed neither to move along the axis nor to "
+                                  "tilt (planets against the carrier). Tilting bodies load one end of the face more "
+                                  "than the other",
+                                  fmt::join(held, ", ")),
+                      name});
+    if (scene.sun_planet.stiffness == StiffnessShape::computed ||
+        scene.ring_planet.stiffness == StiffnessShape::computed)
+      list.push_back(
+          {"even_faces", Severity::warning,
+           "computed mesh stiffnesses are spread evenly over the face: every part of it gives way by itself. "
+           "Real teeth support the loaded part from beside it, so that K_Hβ is overestimated where the load "
+           "is uneven, and its error bar does not contain that",
+           name});
+  }
+  return list;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,319 @@
+#include "app/systems/planetary/space/space_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "app/scene/key_checks.h"
+#include "app/scene/scene_declare.h"
+#include "app/systems/planetary/space/space_input.h"
+#include "core/errors.h"
+#include "dynamics/spatial/elastic_laws.h"
+
+namespace annulus::app {
+
+namespace {
+
+using dynamics::StageFrame;
+using Body = dynamics::StageBody::Kind;
+
+constexpr double furthest_mm = 1e5;
+
+/// [[path]] in a list of SpaceInput.
+template <class Section>
+Declarations<Section> declare_list(const char* path, const char* meaning, std::vector<Section> SpaceInput::*list) {
+  return Declarations<Section>(
+      path, meaning, [list](Scene& s, std::size_t i) -> Section& { return (s.own<SpaceInput>().*list).at(i); },
+      [list](Scene& s, std::size_t n) { (s.own<SpaceInput>().*list).resize(n); });
+}
+
+std::vector<Choice<Body>> bodies() {
+  return {{"sun", Body::sun}, {"ring", Body::ring}, {"carrier", Body::carrier}, {"planet", Body::planet}};
+}
+
+template <class Section>
+void declare_body(Declarations<Section>& t, const char* meaning) {
+  t.choice("body", &Section::body, bodies(), meaning).required();
+  t.key("planet", &Section::planet, "Number of the planet, from 1 on.")
+      .from(1, 100)
+      .only_if(is("body", {"planet"}), "other bodies have no numbers")
+      .absent("every planet");
+}
+
+template <class Section>
+void declare_frame(Declarations<Section>& t, const char* meaning) {
+  t.choice("frame", &Section::frame, {{"housing", StageFrame::housing}, {"carrier", StageFrame::carrier}}, meaning)
+      .fallback("housing", "it stands still while the carrier turns");
+}
+
+Table bearing_table() {
+  auto bearing = declare_list(
+      "bearing",
+      "A bearing, coupling or mount in its place on the axis (annulus statics). A body that has any is held by these "
+      "alone; others have their radial support of [supports] and neither move along the axis nor tilt.",
+      &SpaceInput::bearings);
+  bearing.on_request();
+  bearing.key("name", &BearingInput::name, "Name in results.").required();
+  declare_body(bearing, "The body that it holds.");
+  bearing
+      .choice("on", &BearingInput::on,
+              {{"housing", Body::housing}, {"carrier", Body::carrier}, {"sun", Body::sun}, {"ring", Body::ring}},
+              "The body on which it stands.")
+      .absent("the housing; of planets the carrier");
+  bearing
+      .key("at_mm", &BearingInput::place, "Place of its middle along the axis, from the middle of the face of [stage].")
+      .fallback(0.0, "in the middle of the face")
+      .from(-furthest_mm, furthest_mm);
+  const auto stiffness = [&](const char* name, auto member, const char* meaning) {
+    return bearing.key(name, member, meaning).from(0, 1e15).infinite().word("rigid", rigid);
+  };
+  const auto has_matrix = given("stiffness_5x5_N_m_rad");
+  constexpr const char* why_matrix = "the matrix contains all stiffnesses";
+  stiffness("radial_N_per_m", &BearingInput::radial, "Radial stiffness, the same in all directions.")
+      .refused_if(has_matrix, why_matrix)
+      .refused_if(given("x_N_per_m") || given("y_N_per_m"), "the stiffness has a value for each direction")
+      .absent("none");
+  for (const auto& [name, member, meaning] :
+       {std::tuple{"x_N_per_m", &BearingInput::x,
+                   "Stiffness along x: towards planet 1 at time 0; of planets radially outwards."},
+        {"y_N_per_m", &BearingInput::y, "Stiffness along y; of planets tangentially."}})
+    stiffness(name, member, meaning).refused_if(has_matrix, why_matrix).absent("radial_N_per_m");
+  stiffness("axial_N_per_m", &BearingInput::axial, "Stiffness along the axis.")
+      .refused_if(has_matrix, why_matrix)
+      .fallback(0.0, "it does not hold along the axis");
+  bearing.key("tilt_Nm_per_rad", &BearingInput::tilt, "Stiffness against tilting about x and y.")
+      .from(0, 1e15)
+      .infinite()
+      .word("rigid", rigid)
+      .refused_if(has_matrix, why_matrix)
+      .fallback(0.0, "it tilts freely");
+  bearing
+      .key("clearance_um", &BearingInput::clearance,
+           "Radial clearance (ISO 5753-1): how far the body moves across it from stop to stop.")
+      .only_if(given("radial_N_per_m"), "beyond the clearance it has one stiffness in all directions")
+      .fallback(0.0, "none")
+      .from(0, 1e5);
+  bearing
+      .choice("clearance_law", &BearingInput::load_zone, {{"load_zone", true}, {"stop", false}},
+              "Force beyond the clearance. load_zone: rollers of linear stiffness, of which more carry the larger the "
+              "load is; radial_N_per_m is the stiffness without clearance. stop: radial_N_per_m times the way beyond "
+              "half the clearance.")
+      .only_if(given("clearance_um"), "without clearance both are the same")
+      .fallback("load_zone", "as in rolling bearings");
+  bearing
+      .key("axial_clearance_um", &BearingInput::axial_clearance,
+           "Axial clearance: how far the body moves along the axis from stop to stop.")
+      .only_if(given("axial_N_per_m"), "beyond the clearance it needs a stiffness")
+      .fallback(0.0, "none")
+      .from(0, 1e5);
+  bearing
+      .key("stiffness_5x5_N_m_rad", &BearingInput::matrix,
+           "Stiffness matrix in rows, 25 values: forces along x, y, z (N) and moments about x, y (N m) over the "
+           "displacements along x, y, z (m) and the tilts about x, y (rad) of the body in the place of the bearing. "
+           "Symmetric.")
+      .from(-1e15, 1e15)
+      .longest(25)
+      .absent("the single stiffnesses");
+  declare_frame(bearing, "Frame in which x and y point; of planets always their own.");
+  return bearing.done();
+}
+
+Table load_table() {
+  auto load = declare_list("load",
+                           "A force and a moment on a body from without, beside the torque of [stage] (annulus "
+                           "statics).",
+                           &SpaceInput::loads);
+  load.on_request();
+  load.key("name", &LoadInput::name, "Name in results.").required();
+  declare_body(load, "The body on which it acts.");
+  declare_frame(load,
+                "Frame in which it is given: x towards planet 1, z along the axis. housing: as the carrier stands at "
+                "time 0.");
+  load.key("at_mm", &LoadInput::point,
+           "Point at which the force acts, x, y, z from the middle of the stage, or of the planet.")
+      .from(-furthest_mm, furthest_mm)
+      .longest(3)
+      .absent("the middle");
+  load.key("force_N", &LoadInput::force, "Force, x, y, z.")
+      .from(-1e9, 1e9)
+      .longest(3)
+      .some_of({"moment_Nm"})
+      .absent("none");
+  load.key("moment_Nm", &LoadInput::moment, "Moment, about x, y, z. That about z must be zero: it is a torque.")
+      .from(-1e9, 1e9)
+      .longest(3)
+      .absent("none");
+  return load.done();
+}
+
+Table gravity_table() {
+  Declarations<GravityInput> gravity("gravity", "Weight of all bodies (annulus statics).",
+                                     [](Scene& s, std::size_t) -> GravityInput& {
+                                       auto& g = s.own<SpaceInput>().gravity;
+                                       return g ? *g : g.emplace();
+                                     });
+  gravity.on_request();
+  gravity.key("acceleration_m_per_s2", &GravityInput::acceleration, "Acceleration of gravity.")
+      .fallback(9.80665, "standard gravity")
+      .from(0, 1000);
+  gravity
+      .key("direction_deg", &GravityInput::direction,
+           "Its direction in the transverse plane, counter-clockwise from planet 1 at time 0.")
+      .required()
+      .from(-360, 360);
+  gravity
+      .key("inclination_deg", &GravityInput::inclination,
+           "Angle by which it leans out of the transverse plane towards +z: that of the axis with the horizontal.")
+      .fallback(0.0, "the axis is horizontal")
+      .from(-90, 90);
+  for (const auto& [body, member] : {std::pair{"sun", &GravityInput::sun},
+                                     {"planet", &GravityInput::planet},
+                                     {"ring", &GravityInput::ring},
+                                     {"carrier", &GravityInput::carrier}})
+    gravity
+        .key(fmt::format("{}_at_mm", body), member,
+             fmt::format("Centre of mass of the {} along the axis, from the middle of the face of [stage].", body))
+        .fallback(0.0, "in the middle of the face")
+        .from(-furthest_mm, furthest_mm);
+  return gravity.done();
+}
+
+Table statics_table() {
+  Declarations<StaticsInput> statics(
+      "statics", "Positions of annulus statics.",
+      [](Scene& s, std::size_t) -> StaticsInput& { return s.own<SpaceInput>().statics; });
+  statics.optional();
+  statics
+      .key("carrier_positions", &StaticsInput::places,
+           "Positions of the carrier over a turn against the ring, each at a whole number of mesh cycles.")
+      .fallback(32, "more than ten per planet of most stages")
+      .from(1, 100000);
+  statics.key("mesh_phases", &StaticsInput::phases, "Positions in the mesh cycle that begins at each of them.")
+      .from(1, 1000)
+      .absent("one where no stiffness changes in the mesh cycle, otherwise 8");
+  return statics.done();
+}
+
+class SpaceChecks : KeyChecks {
+ public:
+  using KeyChecks::KeyChecks;
+
+  void run() {
+    const auto& space = scene_.own<SpaceInput>();
+    names("bearing.name", space.bearings);
+    names("load.name", space.loads);
+    for (std::size_t i = 0; i < space.bearings.size(); ++i) bearing(i, space.bearings[i]);
+    for (std::size_t i = 0; i < space.loads.size(); ++i) load(i, space.loads[i]);
+  }
+
+ private:
+  template <class List>
+  void names(const std::string& key, const List& list) {
+    const auto printable = [](unsigned char c) { return c >= ' ' && c != 127; };
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (!usable(key, i)) continue;
+      const auto& name = list[i].name;
+      if (name.empty() || !std::all_of(name.begin(), name.end(), printable))
+        problem(key, i, "names it in tables: not empty, without line breaks and tabs");
+      for (std::size_t j = 0; j < i; ++j)
+        if (list[j].name == name) {
+          problem(key, i, "is the name of more than one; each needs its own");
+          break;
+        }
+    }
+  }
+
+  void planet(const std::string& key, std::size_t i, const std::optional<int>& number) {
+    if (number && usable(key, i) && usable("stage.planets") && *number > scene_.stage.planets)
+      problem(key, i, fmt::format("is the number of no planet: there are {}", scene_.stage.planets));
+  }
+
+  void bearing(std::size_t i, const BearingInput& b) {
+    planet("bearing.planet", i, b.planet);
+    if (b.on && usable("bearing.on", i) && usable("bearing.body", i)) {
+      if (b.body == Body::planet && *b.on != Body::carrier)
+        problem("bearing.on", i, "planets stand on the carrier: use \"carrier\", or leave it out");
+      else if (*b.on == b.body)
+        problem("bearing.on", i, "a body cannot stand on itself; use another body, or leave it out");
+    }
+    const bool plays = (b.clearance > 0 && b.radial == rigid) || (b.axial_clearance > 0 && b.axial == rigid);
+    if (plays && usable("bearing.clearance_um", i) && usable("bearing.axial_clearance_um", i))
+      problem(b.clearance > 0 && b.radial == rigid ? "bearing.clearance_um" : "bearing.axial_clearance_um", i,
+              "needs a bearing that gives way beyond it; use a finite stiffness");
+    if (b.clearance > 0 && b.radial == 0.0 && usable("bearing.clearance_um", i))
+      problem("bearing.clearance_um", i, "needs a stiffness beyond it: bearing.radial_N_per_m is 0");
+    if (!b.matrix.empty()) return matrix(i, b.matrix);
+    const bool any =
+        b.radial.value_or(0) > 0 || b.x.value_or(0) > 0 || b.y.value_or(0) > 0 || b.axial > 0 || b.tilt > 0;
+    const bool all_usable = std::all_of(std::begin(stiffness_keys), std::end(stiffness_keys),
+                                        [&](const char* key) { return !given(key, i) || usable(key, i); });
+    if (!any && all_usable)
+      problem("bearing.name", i,
+              "holds nothing: give bearing.radial_N_per_m, x_N_per_m, y_N_per_m, axial_N_per_m, tilt_Nm_per_rad or "
+              "stiffness_5x5_N_m_rad");
+  }
+
+  void matrix(std::size_t i, const std::vector<double>& values) {
+    const std::string key = "bearing.stiffness_5x5_N_m_rad";
+    if (!usable(key, i)) return;
+    if (values.size() != 25)
+      return problem(key, i, fmt::format("needs 25 values, five rows of five, not {}", values.size()));
+    try {
+      (void)dynamics::LinearLaw(Eigen::Map<const Eigen::Matrix<double, 5, 5, Eigen::RowMajor>>(values.data()));
+    } catch (const InputError& error) {
+      problem(key, i, error.what());
+    }
+  }
+
+  void load(std::size_t i, const LoadInput& l) {
+    planet("load.planet", i, l.planet);
+    for (const auto& [key, list] :
+         {std::pair{"load.at_mm", &l.point}, {"load.force_N", &l.force}, {"load.moment_Nm", &l.moment}})
+      if (!list->empty() && list->size() != 3 && usable(key, i))
+        problem(key, i, fmt::format("needs three values, x, y and z, not {}", list->size()));
+    if (l.moment.size() == 3 && l.moment[2] != 0 && usable("load.moment_Nm", i))
+      problem("load.moment_Nm", i,
+              "has a part about z: that is a torque, which stage.sun_torque_Nm, carrier_torque_Nm, ring_torque_Nm or "
+              "power_kW gives; use 0");
+    if (l.force.size() == 3 && l.point.size() == 3 && l.body != Body::carrier && usable("load.force_N", i) &&
+        usable("load.at_mm", i) && l.point[0] * l.force[1] != l.point[1] * l.force[0] && l.body != Body::planet)
+      problem("load.at_mm", i,
+              "gives the force a torque about the axis, which [stage] states; use a point on the line of the force "
+              "through the axis");
+  }
+
+  static constexpr const char* stiffness_keys[] = {"bearing.radial_N_per_m",  "bearing.x_N_per_m",
+                                                   "bearing.y_N_per_m",       "bearing.axial_N_per_m",
+                                                   "bearing.tilt_Nm_per_rad", "bearing.stiffness_5x5_N_m_rad"};
+};
+
+void reverse(std::vector<double>& list, std::initializer_list<std::size_t> which) {
+  if (list.size() != 3) return;
+  for (const std::size_t i : which) list[i] = -list[i];
+}
+
+}  // namespace
+
+std::vector<Table> space_tables() { return {bearing_table(), load_table(), gravity_table(), statics_table()}; }
+
+void check_space(Scene& scene, std::vector<Problem>& problems) { SpaceChecks(scene, problems).run(); }
+
+void mirror_space(Scene& scene) {
+  auto& space = scene.own<SpaceInput>();
+  for (auto& b : space.bearings) {
+    if (b.matrix.size() != 25) continue;
+    constexpr double sign[] = {1, -1, 1, -1, 1};
+    for (std::size_t i = 0; i < 25; ++i) b.matrix[i] *= sign[i / 5] * sign[i % 5];
+  }
+  for (auto& l : space.loads) {
+    reverse(l.point, {1});
+    reverse(l.force, {1});
+    reverse(l.moment, {0, 2});
+  }
+  if (space.gravity) space.gravity->direction = -space.gravity->direction;
+}
+
+}  // namespace annulus::app

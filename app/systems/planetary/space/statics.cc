@@ -1,0 +1,260 @@
+#include "app/systems/planetary/space/statics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "app/scene/input_place.h"
+#include "app/systems/planetary/planetary_model.h"
+#include "app/systems/planetary/planetary_run.h"
+#include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/planetary/space/space_input.h"
+#include "app/systems/planetary/space/space_stage.h"
+#include "core/errors.h"
+#include "core/log.h"
+
+namespace annulus::app {
+
+namespace {
+
+using dynamics::StaticPosition;
+using dynamics::StaticSchedule;
+using dynamics::StaticTurn;
+
+/// What the error of a result is the difference to.
+struct OtherTurn {
+  StaticTurn turn;
+  double weight = 1;
+};
+
+/// One of its places, or phases, in two.
+StaticTurn every_second(const StaticTurn& turn, bool places, std::size_t from) {
+  StaticTurn half = turn;
+  half.positions.clear();
+  const auto phases = static_cast<std::size_t>(turn.schedule.phases);
+  if (places) {
+    half.schedule.cycles.clear();
+    for (std::size_t i = from; i < turn.schedule.cycles.size(); i += 2)
+      half.schedule.cycles.push_back(turn.schedule.cycles[i]);
+  } else {
+    half.schedule.phases = static_cast<int>((phases + 1 - from) / 2);
+  }
+  for (std::size_t i = 0; i < turn.positions.size(); ++i)
+    if ((places ? i / phases : i % phases) % 2 == from) half.positions.push_back(turn.positions[i]);
+  return half;
+}
+
+/// A value of a turn, with its differences to others added up.
+Figure with_error(const StaticTurn& turn, const std::vector<OtherTurn>& others,
+                  const std::function<double(const StaticTurn&)>& value) {
+  Figure figure{value(turn), 0};
+  for (const auto& other : others) figure.error += other.weight * std::abs(value(other.turn) - figure.value);
+  return figure;
+}
+
+double largest(const StaticTurn& turn, const std::function<double(const StaticPosition&)>& value) {
+  double most = 0;
+  for (const auto& p : turn.positions) most = std::max(most, value(p));
+  return most;
+}
+
+FigureSet all_figures(const StaticTurn& turn, const std::vector<OtherTurn>& others) {
+  FigureSet set;
+  using dynamics::StaticFigures;
+  for (const auto& [name, mesh] : {std::pair{"sun_planet", &StaticFigures::sun}, {"ring_planet", &StaticFigures::ring}})
+    for (const auto& [key, member] : {std::pair{"load_sharing", &StaticFigures::Mesh::sharing},
+                                      {"load_sharing_instantaneous", &StaticFigures::Mesh::sharing_instantaneous},
+                                      {"face_load_factor", &StaticFigures::Mesh::line_load_ratio}})
+      set.set(fmt::format("{}_static_{}", name, key),
+              with_error(turn, others, [&](const StaticTurn& t) { return dynamics::figures_of(t).*mesh.*member; }));
+  return set;
+}
+
+std::vector<BearingStatics> all_bearings(const dynamics::SpatialStage& stage, const StaticTurn& turn,
+                                         const std::vector<OtherTurn>& others) {
+  std::vector<BearingStatics> list;
+  const auto made = dynamics::assemble(stage, 0);
+  for (std::size_t b = 0; b < turn.bearing_names.size(); ++b) {
+    BearingStatics bearing{turn.bearing_names[b], dynamics::SpatialStage::name_of(made.bearings.at(b).body)};
+    const auto most = [&](const std::function<double(const dynamics::StaticBearing&)>& value) {
+      return with_error(turn, others, [&](const StaticTurn& t) {
+        return largest(t, [&](const StaticPosition& p) { return value(p.bearings.at(b)); });
+      });
+    };
+    bearing.radial = most([](const auto& x) { return x.force.template head<2>().norm(); });
+    bearing.axial = most([](const auto& x) { return std::abs(x.force.z()); });
+    bearing.moment = most([](const auto& x) { return x.moment.norm(); });
+    for (const auto& p : turn.positions) bearing.mean_radial += p.bearings[b].force.head<2>().norm();
+    bearing.mean_radial /= static_cast<double>(turn.positions.size());
+    list.push_back(std::move(bearing));
+  }
+  return list;
+}
+
+/// In the mirror image y, and what turns about x and z, have the other sign.
+void mirror(StaticTurn& turn) {
+  for (auto& p : turn.positions) {
+    p.carrier_angle = -p.carrier_angle;
+    p.carrier_torque = -p.carrier_torque;
+    p.ring_torque = -p.ring_torque;
+    for (auto& b : p.bearings) {
+      b.force.y() = -b.force.y();
+      b.moment.x() = -b.moment.x();
+    }
+    for (auto& b : p.bodies) {
+      b.displacement.y() = -b.displacement.y();
+      b.rotation.x() = -b.rotation.x();
+      b.rotation.z() = -b.rotation.z();
+    }
+  }
+}
+
+/// Places and phases that show something.
+StaticSchedule schedule_of(const Scene& scene, const dynamics::SpatialStage& stage) {
+  const auto& wanted = scene.own<SpaceInput>().statics;
+  const bool in_cycle = varies_in_cycle(scene.sun_planet) || varies_in_cycle(scene.ring_planet);
+  const bool over_turn = stage.depends_on_carrier_angle() || stage.plane.error_period() > 1;
+  constexpr int usual_phases = 8;
+  return dynamics::turn_of_carrier(stage.plane, over_turn ? wanted.places : 1,
+                                   wanted.phases.value_or(in_cycle ? usual_phases : 1));
+}
+
+void check_sun(const Scene& scene) {
+  const auto& bearings = scene.own<SpaceInput>().bearings;
+  const auto* sun = scene.find("supports.sun_N_per_m");
+  const bool given = sun != nullptr && sun->origin == Origin::scene;
+  const bool has_bearing = std::any_of(bearings.begin(), bearings.end(),
+                                       [](const auto& b) { return b.body == dynamics::StageBody::Kind::sun; });
+  if (!given && !has_bearing && scene.stage.planets > 1)
+    throw InputError(
+        fmt::format("{}: supports.sun_N_per_m: is required by annulus statics where no [[bearing]] holds the sun: it "
+                    "has the largest effect on load sharing; give a stiffness, \"floating\" or \"rigid\"",
+                    scene.file.string()));
+}
+
+/// Bodies of computed meshes, whose stiffness is known to their error.
+double stiffness_error(const MeshResult& mesh) {
+  const double error = mesh.mean_stiffness().error_relative;
+  return mesh.model.computed() && std::isfinite(error) ? error : 0.0;
+}
+
+void warn_of_back_flanks(std::vector<Warning>& list, const StaticTurn& turn, const std::string& ring) {
+  int count = 0;
+  for (const auto& p : turn.positions) {
+    const auto carries = [](const auto& m) { return m.back_flanks; };
+    count += std::any_of(p.sun_meshes.begin(), p.sun_meshes.end(), carries) ||
+             std::any_of(p.ring_meshes.begin(), p.ring_meshes.end(), carries);
+  }
+  if (count > 0)
+    list.push_back({"back_flanks", Severity::warning,
+                    fmt::format("back flanks carry load in {} of {} positions; they have the stiffness of the driving "
+                                "flanks and no lead modifications",
+                                count, turn.positions.size()),
+                    ring});
+}
+
+}  // namespace
+
+StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, const RunOptions& run_options) {
+  check_sun(scene);
+  RunOptions options = run_options;
+  options.with_dynamics = false;
+  const auto models = mesh_models(scene, geometry);
+  std::vector<MeshResult> tables;
+  for (const auto& model : models) {
+    auto& mesh = tables.emplace_back(mesh_stiffness(scene, geometry, model, options));
+    if (may_be_coupled_at_rest(scene, model))
+      mesh.coupling = std::make_shared<SolvedCoupling>(solve_coupling(
+          scene, geometry, model, 1 / mesh.mean_stiffness().value, options, options.out / model.ring / "statics"));
+  }
+  StageStatics statics{scene, {}};
+  for (std::size_t ring = 0; ring < scene.rings.size(); ++ring) {
+    const auto &sun_mesh = tables.front(), &ring_mesh = tables.at(ring + 1);
+    const auto make = [&](const FaceChoice& choice) {
+      return make_spatial_stage(scene, geometry, ring, sun_mesh, ring_mesh, choice);
+    };
+    const auto stage = make({});
+    const auto schedule = schedule_of(scene, stage);
+    const auto solved = [&](const dynamics::SpatialStage& s) {
+      try {
+        return dynamics::solve_turn(s, schedule, options.threads);
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: ring '{}': {}", scene.file.string(), scene.rings[ring].name, error.what()));
+      }
+    };
+    RingStatics result;
+    result.ring = scene.rings[ring].name;
+    result.turn = solved(stage);
+    std::vector<OtherTurn> others;
+    // What lies between the positions falls with the square of their distance: half of them leave four times as much.
+    // The other half has the largest value where one does not.
+    constexpr double of_half = 1.0 / 3;
+    for (const std::size_t from : {0u, 1u}) {
+      if (schedule.cycles.size() > 1) others.push_back({every_second(result.turn, true, from), of_half});
+      if (schedule.phases > 1) others.push_back({every_second(result.turn, false, from), of_half});
+    }
+    if (stage.sun_face.law(0, dynamics::StageFace::Flank::driving)->size() > 2)
+      others.push_back({solved(make({.stretches = face_stretches / 2})), of_half});
+    if (const double error = stiffness_error(sun_mesh); error > 0)
+      others.push_back({solved(make({.sun_factor = 1 + error}))});
+    if (const double error = stiffness_error(ring_mesh); error > 0)
+      others.push_back({solved(make({.ring_factor = 1 + error}))});
+    result.figures = all_figures(result.turn, others);
+    result.bearings = all_bearings(stage, result.turn, others);
+    for (std::size_t b = 0; b < result.turn.body_names.size(); ++b)
+      result.tilt.push_back(with_error(result.turn, others, [&](const StaticTurn& t) {
+        return largest(t, [&](const StaticPosition& p) { return p.bodies.at(b).rotation.head<2>().norm(); });
+      }));
+    result.reasons = stage.reasons_for_space();
+    result.mean_mesh_force = stage.plane.mean_mesh_force();
+    result.worst_residual = largest(result.turn, [](const StaticPosition& p) { return p.residual_relative; });
+    result.warnings = space_warnings(scene, ring, stage);
+    warn_of_back_flanks(result.warnings, result.turn, result.ring);
+    if (geometry.operating_point.mirrored) mirror(result.turn);
+    statics.rings.push_back(std::move(result));
+  }
+  return statics;
+}
+
+const std::vector<FigureSpec>& static_figures() {
+  static const auto list = [] {
+    std::vector<FigureSpec> specs;
+    for (const auto& [mesh, words, gear] :
+         {std::tuple{"sun_planet", "sun meshes", "sun"}, {"ring_planet", "ring meshes", "ring"}}) {
+      FigureSpec sharing;
+      sharing.key = fmt::format("{}_static_load_sharing", mesh);
+      sharing.title = fmt::format("Load sharing of the {} in equilibrium over a turn", words);
+      sharing.symbol = "K_γ";
+      sharing.definition =
+          "Mesh force of a planet, averaged over a mesh cycle, over the mean of all planets: the largest over the "
+          "planets and over a turn of the carrier against the ring, without inertia (annulus statics).";
+      sharing.term = "K_γ";
+      sharing.better = Better::smaller;
+      sharing.quantity = "load_sharing";
+      specs.push_back(sharing);
+      sharing.key += "_instantaneous";
+      sharing.title = fmt::format("Load sharing of the {} in equilibrium, in any position", words);
+      sharing.definition =
+          "Mesh force of a planet over the mean of all planets: the largest over the planets and all positions of a "
+          "turn of the carrier against the ring, without inertia (annulus statics).";
+      specs.push_back(sharing);
+      FigureSpec face;
+      face.key = fmt::format("{}_static_face_load_factor", mesh);
+      face.title = fmt::format("Face load factor of the {} in equilibrium over a turn", words);
+      face.symbol = "K_Hβ";
+      face.definition = fmt::format(
+          "Largest force per face width over the mean one of the mesh, of planets and {} in all positions of a turn of "
+          "the carrier against the ring, without inertia (annulus statics).",
+          gear);
+      face.better = Better::smaller;
+      specs.push_back(face);
+    }
+    return specs;
+  }();
+  return list;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,274 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/csv.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "core/units.h"
+#include "tests/app/run_program.h"
+#include "tests/app/scene_refusal.h"
+#include "tests/app/scenes.h"
+#include "tests/temporary_folder.h"
+#include "tests/verification_record.h"
+
+/// annulus statics, from a scene to its files.
+BOOST_AUTO_TEST_SUITE(statics)
+
+using namespace annulus;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Three helical planets of prescribed stiffness, everything else to be added. The sun drives.
+std::string helical_stage(const std::string& helix = "7.5", const std::string& speed = "100") {
+  return R"(title = "Helical"
+[stage]
+kind = "planetary"
+planets = 3
+module_mm = 10
+pressure_angle_deg = 20
+helix_angle_deg = )" +
+         helix + R"(
+face_width_mm = 220
+centre_distance_mm = 308
+sun_torque_Nm = 56875
+sun_speed_rpm = )" +
+         speed + R"(
+[material]
+youngs_modulus_GPa = 206
+[sun]
+teeth = 21
+profile_shift = 0.176
+mass_kg = 180
+[planet]
+teeth = 39
+profile_shift = 0.399
+mass_kg = 110
+[carrier]
+mass_kg = 1500
+[[ring]]
+name = "held"
+structure = "traditional"
+teeth = 99
+profile_shift = 0.974
+outside_diameter_mm = 1200
+mass_kg = 509
+[mesh.sun_planet]
+stiffness = "constant"
+mean_N_per_m = 3e9
+half_backlash_um = 300
+[mesh.ring_planet]
+stiffness = "constant"
+mean_N_per_m = 4e9
+half_backlash_um = 300
+)";
+}
+
+std::string bearing(const std::string& name, const std::string& body, const std::string& keys) {
+  return "[[bearing]]\nname = \"" + name + "\"\nbody = \"" + body + "\"\n" + keys;
+}
+
+/// Carrier bearings with clearance, planets on two rows, a sun in a spline, weight, and a rotor's moment.
+std::string in_space(const std::string& moment = "[50e3, 100e3, 0]", const std::string& down = "270") {
+  return "[gravity]\ndirection_deg = " + down + "\ncarrier_at_mm = -100\n" +
+         bearing("upwind row", "planet", "at_mm = -60\nradial_N_per_m = 2e9\naxial_N_per_m = 1e9\n") +
+         bearing("downwind row", "planet", "at_mm = 60\nradial_N_per_m = 2e9\nclearance_um = 60\n") +
+         bearing("upwind", "carrier", "at_mm = -300\nradial_N_per_m = 3e9\naxial_N_per_m = 1e9\nclearance_um = 275\n") +
+         bearing("downwind", "carrier",
+                 "at_mm = 300\nradial_N_per_m = 3e9\nclearance_um = 180\nclearance_law = \"stop\"\n") +
+         bearing("spline", "sun", "at_mm = 700\nradial_N_per_m = 5e7\naxial_N_per_m = 3e8\ntilt_Nm_per_rad = 1e6\n") +
+         "[[load]]\nname = \"rotor\"\nbody = \"carrier\"\nmoment_Nm = " + moment + "\n";
+}
+
+/// `annulus statics` of a scene; its files are in `folder`/out.
+Json solved(const test::TemporaryFolder& folder, const std::string& scene) {
+  write_file(folder.path() / "scene.toml", scene);
+  const auto outcome = test::run_program(folder.path(), "statics scene.toml --out out --quiet");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  return Json::parse(read_file(folder.path() / "out/statics.json"));
+}
+
+double result(const Json& json, const std::string& key) {
+  return json.at("rings").at("held").at("results").at(key).at("value").get<double>();
+}
+
+Csv table(const test::TemporaryFolder& folder, const std::string& name) {
+  return Csv::read(folder.path() / "out/held/statics" / name);
+}
+
+}  // namespace
+
+// The lumped model answers the same equilibrium at every position of its window: its largest load sharing is that of
+// 64 positions in each of 55 mesh cycles.
+BOOST_AUTO_TEST_CASE(plane_stage_shares_the_load_as_the_lumped_model_does) {
+  test::Verification record("annulus statics, plane stage", "quasi-static load sharing of annulus run");
+  const test::TemporaryFolder folder("statics_1");
+  const auto scene = test::quick_scene() + "[statics]\ncarrier_positions = 162\nmesh_phases = 16\n";
+  const auto statics = solved(folder, scene);
+  BOOST_TEST(statics.at("rings").at("held").at("degrees_of_freedom") == "plane");
+  const auto run = test::run_program(folder.path(), "run scene.toml --out out --quiet");
+  BOOST_TEST_REQUIRE(run.status == 0, run.err);
+  // A run leaves the files of the statics alone, and the other way round.
+  BOOST_TEST(std::filesystem::exists(folder.path() / "out/statics.html"));
+  const auto summary = Json::parse(read_file(folder.path() / "out/summary.json"));
+  for (const std::string mesh : {"sun_planet", "ring_planet"}) {
+    const auto& other = summary.at("rings").at("held").at("load_sharing").at(mesh).at("quasi_static");
+    record.close("largest load sharing in any position", "",
+                 result(statics, mesh + "_static_load_sharing_instantaneous"), other.at("value").get<double>(), 1e-3,
+                 "positions between the samples");
+    BOOST_TEST(result(statics, mesh + "_static_face_load_factor") == 1, boost::test_tools::tolerance(1e-9));
+  }
+}
+
+// F_n - F = (2/3) (W_sun + S_spline) . e_n / c, with everything else that moves: clearances, tilts, moments.
+BOOST_AUTO_TEST_CASE(three_planets_share_by_what_centres_the_sun) {
+  test::Verification record("Load sharing of three planets in space", "equilibrium of the sun");
+  const test::TemporaryFolder folder("statics_2");
+  (void)solved(folder, helical_stage() + in_space());
+  const auto forces = table(folder, "mesh_forces.csv"), bearings = table(folder, "bearings.csv");
+  const double module = 10e-3 / std::cos(7.5 * units::deg);
+  const double base = std::cos(std::atan(std::tan(20 * units::deg) / std::cos(7.5 * units::deg)));
+  const double sun = module * 21 / 2 * base, planet = module * 39 / 2 * base;
+  const double angle = std::acos((sun + planet) / 0.308), mean = 56875 / (3 * sun);
+  const auto names = *bearings.header_value("bearings");
+  const auto before = names.substr(0, names.find(" spline"));
+  const std::string spline = "bearing" + before.substr(before.find_last_of(' ') + 1);
+  BOOST_TEST(forces.rows.size() == 32u);
+  double largest = 0;
+  for (std::size_t i = 0; i < forces.rows.size(); ++i) {
+    const double theta = forces.rows[i][forces.column("carrier_angle_deg")] * units::deg;
+    const double x = bearings.rows[i][bearings.column(spline + "_x_N")];
+    const double y = bearings.rows[i][bearings.column(spline + "_y_N")] - 180 * 9.80665;
+    for (int n = 0; n < 3; ++n) {
+      const double along = 2 * pi * n / 3 + pi / 2 - angle + theta;  // of the line of action, in the housing
+      const double expected = mean + 2.0 / 3 * (x * std::cos(along) + y * std::sin(along));
+      const double force = forces.rows[i][forces.column("sun_planet" + std::to_string(n + 1) + "_force_N")];
+      record.close("sun mesh forces at 32 angles of the carrier", "N", force, expected, 1e-8, "residual");
+      largest = std::max(largest, std::abs(force / mean - 1));
+    }
+  }
+  BOOST_TEST(largest > 5e-3);  // the spline does push
+}
+
+// Turned the other way with everything mirrored, planets 2 and 3 change places and nothing else happens.
+BOOST_AUTO_TEST_CASE(mirror_image_turns_the_other_way) {
+  test::Verification record("annulus statics of the mirror image", "symmetry");
+  const test::TemporaryFolder one("statics_one"), other("statics_other");
+  const auto a = solved(one, helical_stage("7.5", "100") + in_space());
+  const auto b = solved(other, helical_stage("-7.5", "-100") + in_space("[-50e3, 100e3, 0]", "90"));
+  for (const std::string key : {"sun_planet_static_load_sharing", "sun_planet_static_face_load_factor",
+                                "ring_planet_static_load_sharing", "ring_planet_static_face_load_factor"})
+    record.close("load sharing and face load factors", "", result(b, key), result(a, key), 1e-9, "residual");
+  const auto first = table(one, "bearings.csv"), second = table(other, "bearings.csv");
+  for (std::size_t i = 0; i < first.rows.size(); ++i) {
+    BOOST_TEST(first.rows[i][1] == -second.rows[i][1], boost::test_tools::tolerance(1e-12));
+    for (const auto& [of_first, of_second] : {std::pair{"bearing1", "bearing1"},
+                                              {"bearing2", "bearing3"},
+                                              {"bearing7", "bearing7"},
+                                              {"bearing9", "bearing9"}})
+      for (const auto& [column, sign] : {std::pair{"_x_N", 1}, {"_y_N", -1}, {"_z_N", 1}, {"_about_x_Nm", -1}}) {
+        const double expected = first.rows[i][first.column(std::string(of_first) + column)];
+        const double found = sign * second.rows[i][second.column(std::string(of_second) + column)];
+        record.near("bearing forces over the torque", "N", found, expected, 1e-3, "residual of 2e5 N");
+      }
+  }
+}
+
+// Rigid bodies, a misaligned spur mesh of even stiffness k' per face width: K_Hbeta = 1 + gamma k' b^2 / (2 F) up to 2.
+BOOST_AUTO_TEST_CASE(misaligned_spur_stage) {
+  test::Verification record("Misaligned stage by annulus statics", "closed form for an even stiffness");
+  const test::TemporaryFolder folder("statics_3");
+  const double b = 88e-3, k = 2e9 / b,
+               force = 2958.8e3 / (1128 * units::rpm) / (5 * 3.8e-3 * 24 * std::cos(22.5 * units::deg));
+  for (const double misalignment : {10e-6, 30e-6, 90e-6}) {
+    auto scene =
+        test::replaced(test::quick_scene(), "stiffness = \"harmonic\"\nmean_N_per_m = 1.364e9\nripple = 0.2258",
+                       "stiffness = \"constant\"\nmean_N_per_m = 2e9");
+    scene = test::replaced(scene, "stiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294",
+                           "stiffness = \"constant\"\nmean_N_per_m = 1.87e9");
+    scene = test::replaced(scene, test::quick_errors(),
+                           "sun_planet_misalignment_um = " + std::to_string(misalignment / units::um) + "\n");
+    const auto statics = solved(folder, scene);
+    BOOST_TEST(statics.at("rings").at("held").at("degrees_of_freedom") == "space");
+    const double slope = misalignment / b, gentle = 1 + slope * k * b * b / (2 * force);
+    const double expected = gentle <= 2 ? gentle : b * std::sqrt(2 * k * slope / force);
+    record.close("K_Hbeta of the sun meshes, three misalignments", "",
+                 result(statics, "sun_planet_static_face_load_factor"), expected, 1e-8, "residual");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(files_and_warnings) {
+  const test::TemporaryFolder folder("statics_4");
+  write_file(folder.path() / "scene.toml", helical_stage());
+  const auto missing = test::run_program(folder.path(), "statics scene.toml --out out");
+  BOOST_TEST(missing.status == 2);
+  BOOST_TEST(missing.err.find("supports.sun_N_per_m") != std::string::npos, missing.err);
+  write_file(folder.path() / "scene.toml", helical_stage() + "[supports]\nsun_N_per_m = \"floating\"\n");
+  const auto held = test::run_program(folder.path(), "statics scene.toml --out out");
+  BOOST_TEST(held.status == 0, held.err);
+  BOOST_TEST(held.err.find("no [[bearing]] holds the sun, ring, carrier, planets") != std::string::npos, held.err);
+  BOOST_TEST(held.out.find("the teeth are helical") != std::string::npos, held.out);
+  const auto json = solved(folder, helical_stage() + in_space());
+  BOOST_TEST(json.at("rings").at("held").at("reasons_for_space").size() >= 4u);
+  BOOST_TEST(json.at("rings").at("held").at("bearings").size() == 10u);
+  for (const auto* file : {"mesh_forces.csv", "bearings.csv", "bodies.csv", "face_load_sun_planet.csv"})
+    BOOST_TEST(table(folder, file).rows.size() > 20u, file);
+  BOOST_TEST(read_file(folder.path() / "out/statics.html").find("Face load factor of the sun meshes") !=
+             std::string::npos);
+  // Nothing holds the sun along the axis: its helix would screw it out.
+  const auto loose = test::replaced(helical_stage() + in_space(), "axial_N_per_m = 3e8\n", "");
+  write_file(folder.path() / "loose.toml", loose);
+  const auto refused = test::run_program(folder.path(), "statics loose.toml --out loose");
+  BOOST_TEST(refused.status == 2, refused.err);
+  BOOST_TEST(refused.err.find("nothing resists a motion of the sun") != std::string::npos, refused.err);
+  write_file(folder.path() / "pair.toml", test::run_program(folder.path(), "new helical_pair").out);
+  const auto pair = test::run_program(folder.path(), "statics pair.toml --out pair");
+  BOOST_TEST(pair.status == 2);
+  BOOST_TEST(pair.err.find("planetary stages alone") != std::string::npos, pair.err);
+}
+
+BOOST_AUTO_TEST_CASE(same_on_any_number_of_threads) {
+  const test::TemporaryFolder folder("statics_5");
+  write_file(folder.path() / "scene.toml", helical_stage() + in_space());
+  std::string first;
+  for (const std::string threads : {"1", "2", "5"}) {
+    const auto outcome =
+        test::run_program(folder.path(), "statics scene.toml --quiet --threads " + threads + " -o " + threads);
+    BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+    const auto all = read_file(folder.path() / threads / "statics.json") +
+                     read_file(folder.path() / threads / "held/statics/bearings.csv");
+    if (first.empty()) first = all;
+    BOOST_TEST((all == first));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
+  const auto told = [](const std::string& tables, const std::string& words) {
+    const auto refusal = test::scene_refusal(helical_stage() + tables);
+    BOOST_TEST(refusal.find(words) != std::string::npos, words + " is not in: " + refusal);
+  };
+  told(bearing("a", "planet", "on = \"housing\"\nradial_N_per_m = 1e9\n"), "planets stand on the carrier");
+  told(bearing("a", "carrier", "on = \"carrier\"\nradial_N_per_m = 1e9\n"), "a body cannot stand on itself");
+  told(bearing("a", "carrier", "at_mm = 3\n"), "holds nothing");
+  told(bearing("a", "carrier", "planet = 1\nradial_N_per_m = 1e9\n"), "other bodies have no numbers");
+  told(bearing("a", "planet", "planet = 4\nradial_N_per_m = 1e9\n"), "there are 3");
+  told(bearing("a", "carrier", "radial_N_per_m = 1e9\n") + bearing("a", "carrier", "radial_N_per_m = 1e9\n"),
+       "the name of more than one");
+  told(bearing("a", "carrier", "radial_N_per_m = \"rigid\"\nclearance_um = 10\n"), "gives way beyond it");
+  told(bearing("a", "carrier", "radial_N_per_m = 1e9\nx_N_per_m = 1e9\n"), "a value for each direction");
+  told(bearing("a", "carrier", "stiffness_5x5_N_m_rad = [1, 2]\n"), "needs 25 values");
+  std::string rows = "[";
+  for (int i = 0; i < 25; ++i) rows += std::string(i > 0 ? ", " : "") + (i % 6 == 0 ? "1e8" : i == 1 ? "1e7" : "0");
+  told(bearing("a", "carrier", "stiffness_5x5_N_m_rad = " + rows + "]\n"), "not symmetric");
+  told("[[load]]\nname = \"a\"\nbody = \"carrier\"\nforce_N = [1, 2]\n", "needs three values");
+  told("[[load]]\nname = \"a\"\nbody = \"carrier\"\nmoment_Nm = [0, 0, 5]\n", "about z");
+  told("[[load]]\nname = \"a\"\nbody = \"carrier\"\n", "force_N");
+  const auto weightless =
+      test::scene_refusal(test::replaced(helical_stage(), "mass_kg = 180\n", "") + "[gravity]\ndirection_deg = 270\n");
+  BOOST_TEST(weightless.find("sun.mass_kg") != std::string::npos, weightless);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
