@@ -27,12 +27,19 @@ class ElasticLaw {
 };
 
 /// The mesh of two gears along its face in one position. Coordinates are the approaches of the flanks' rigid bodies
-/// along the normal of the flanks at some stations along the face, m; forces are what the flanks press with there.
+/// along the normal of the flanks at some stations along the face, m, with the contact in the pitch point; forces are
+/// what the flanks press with there. A law whose contacts lie elsewhere on the path of contact has one coordinate more:
+/// the lean, by which the approach grows per metre from the pitch point along the line of action into the driven gear.
 class FaceLaw : public ElasticLaw {
  public:
   /// z of the stations, m, rising, from the middle of the common face.
   [[nodiscard]] virtual const std::vector<double>& stations() const = 0;
   [[nodiscard]] virtual double face_width() const = 0;  ///< m
+  [[nodiscard]] bool leans() const { return size() > static_cast<int>(stations().size()); }
+  /// N, of all stations, in a state.
+  [[nodiscard]] double force(const State& state) const {
+    return state.force.head(static_cast<Eigen::Index>(stations().size())).sum();
+  }
   /// Force per face width at the stations, N/m, along the normal, of a state.
   [[nodiscard]] virtual Eigen::VectorXd line_load(const Eigen::VectorXd& approach, const State& state) const = 0;
 };

@@ -15,24 +15,10 @@
 #include "fem/levels/error_estimate.h"
 #include "fem/levels/level.h"
 #include "fem/problem/problem_check.h"
+#include "fem/problem/solved_pair.h"
 
 namespace annulus::fem {
 namespace {
-
-/// The ring mesh is solved in a mirror image of the real one, which turns the hands of helical gears and swaps the
-/// flanks.
-geometry::GearPair solved_pair(const geometry::GearPair& pair) {
-  const auto &pinion = pair.pinion().parameters(), &wheel = pair.wheel().parameters();
-  if (!pair.internal() || (pinion.helix_angle == 0 && !geometry::measured(pinion) && !geometry::measured(wheel)))
-    return pair;
-  const auto mirrored = [](const geometry::Gear& gear) {
-    auto parameters = gear.parameters();
-    parameters.helix_angle = -parameters.helix_angle;
-    std::swap(parameters.leading_topography, parameters.trailing_topography);
-    return geometry::Gear(parameters);
-  };
-  return {mirrored(pair.pinion()), mirrored(pair.wheel()), pair.centre_distance()};
-}
 
 /// Finished fraction of the whole work from that of one level. The work grows with the number of cells, and at least
 /// the first level is solved after the one before it; a further one makes the finished part smaller again.

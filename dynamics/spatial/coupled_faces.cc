@@ -23,7 +23,7 @@ Eigen::MatrixXd CoupledFaces::sums() const {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(meshes(), size());
   for (Eigen::Index n = 0; n < meshes(); ++n) {
     const auto mesh = static_cast<std::size_t>(n);
-    result.row(n).segment(first_[mesh], meshes_[mesh]->size()).setOnes();
+    result.row(n).segment(first_[mesh], std::ssize(meshes_[mesh]->stations())).setOnes();
   }
   return result;
 }
@@ -49,12 +49,13 @@ ElasticLaw::State CoupledFaces::at(const Eigen::VectorXd& approach) const {
     for (Eigen::Index n = 0; n < meshes(); ++n) {
       const auto mesh = static_cast<std::size_t>(n);
       const Eigen::Index first = first_[mesh], count = meshes_[mesh]->size();
-      const Eigen::VectorXd own = (approach.segment(first, count).array() - loss[n]).matrix();
+      Eigen::VectorXd own = approach.segment(first, count);
+      own.head(std::ssize(meshes_[mesh]->stations())).array() -= loss[n];
       const State alone = meshes_[mesh]->at(own);
       state.energy += alone.energy;
       state.force.segment(first, count) = alone.force;
       state.tangent.block(first, first, count, count) = alone.tangent;
-      rest[n] -= alone.force.sum();
+      rest[n] -= meshes_[mesh]->force(alone);
     }
     return rest;
   };

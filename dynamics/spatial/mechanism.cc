@@ -196,10 +196,15 @@ class Mechanism::Solver {
 
   /// One step, as far along its direction as the potential falls.
   void step(Eigen::VectorXd& y, Equilibrium& at) const {
-    Eigen::MatrixXd tangent = 1e-12 * Eigen::MatrixXd(in_contact_.diagonal().asDiagonal());
+    // A body without contact has no stiffness of its own, and may not fly away on what rounding leaves.
+    constexpr double of_contact = 1e-10, farthest = 1e-4;
+    Eigen::MatrixXd tangent = of_contact * Eigen::MatrixXd(in_contact_.diagonal().asDiagonal());
     for (std::size_t e = 0; e < reduced_.size(); ++e)
       tangent += reduced_[e].transpose() * at.state[e].tangent * reduced_[e];
-    const Eigen::VectorXd gradient = unbalanced(at), direction = -tangent.ldlt().solve(gradient), from = y;
+    const Eigen::VectorXd gradient = unbalanced(at), from = y;
+    Eigen::VectorXd direction = -tangent.ldlt().solve(gradient);
+    const double most = std::max(2 * y.cwiseAbs().maxCoeff(), farthest * mechanism_.length_);
+    if (const double reach = direction.cwiseAbs().maxCoeff(); reach > most) direction *= most / reach;
     const double slope = gradient.dot(direction);
     const auto slope_at = [&](double s) {
       y = from + s * direction;

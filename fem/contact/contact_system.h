@@ -57,6 +57,10 @@ class ContactSystem {
   /// solved deflections, or take part. `forces` may be null.
   [[nodiscard]] LoadedPosition solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm,
                                      ContactForces* forces) const;
+  /// The tooth pairs of a phase whose elements and search are those of this load.
+  [[nodiscard]] std::shared_ptr<const ToothPairs> pairs(double phase, double load) const {
+    return prepare(phase, load, window_, {});
+  }
 
  private:
   [[nodiscard]] std::shared_ptr<const ToothPairs> prepare(double phase, double load, double window,

@@ -200,6 +200,38 @@ BOOST_AUTO_TEST_CASE(misaligned_spur_stage) {
   }
 }
 
+// Solid gears along their faces against the tables of the same meshes in the lumped model: nothing tilts, the sun is
+// held softly, and one pin stands beside its place. Elements and load steps of the tables leave a percent of the
+// stiffness, of which a tenth of the excess of the load sharing is left.
+BOOST_AUTO_TEST_CASE(solid_faces_share_the_load_as_tables_do) {
+  test::Verification record("annulus statics on solid helical gears", "quasi-static load sharing of annulus run");
+  const test::TemporaryFolder folder("statics_solid");
+  auto scene = helical_stage();
+  scene = scene.substr(0, scene.find("[mesh.sun_planet]"));
+  scene = test::replaced(scene, "title = \"Helical\"\n", "title = \"Helical\"\naccuracy = 0.05\n");
+  scene = test::replaced(scene, "mass_kg = 180\n", "mass_kg = 180\ninertia_kg_m2 = 1\nbore_diameter_mm = 80\n");
+  scene = test::replaced(scene, "mass_kg = 110\n", "mass_kg = 110\ninertia_kg_m2 = 3\nbore_diameter_mm = 290\n");
+  scene = test::replaced(scene, "mass_kg = 1500\n", "mass_kg = 1500\ninertia_kg_m2 = 45\n");
+  scene = test::replaced(scene, "mass_kg = 509\n", "mass_kg = 509\ninertia_kg_m2 = 153\n");
+  scene +=
+      "[errors]\nplanet_pin_position_error_um = [0, 40, 0]\nplanet_pin_position_error_phase_deg = [0, 210, 0]\n"
+      "[supports]\nsun_N_per_m = 2e9\nplanet_N_per_m = 2e9\n"
+      "[dynamics]\nhalf_backlash_um = 300\nmesh_damping_ratio = 0.07\nsupport_damping_ratio = 0.03\n"
+      "rim_coupling = \"none\"\n[statics]\nmesh_phases = 8\n";
+  const auto statics = solved(folder, scene);
+  const auto run = test::run_program(folder.path(), "run scene.toml --out out --quiet");
+  BOOST_TEST_REQUIRE(run.status == 0, run.err);
+  const auto summary = Json::parse(read_file(folder.path() / "out/summary.json"));
+  for (const std::string mesh : {"sun_planet", "ring_planet"}) {
+    const double other = summary.at("rings").at("held").at("load_sharing").at(mesh).at("quasi_static").at("value");
+    BOOST_TEST(other > 1.02);
+    record.near("largest load sharing in any position", "",
+                result(statics, mesh + "_static_load_sharing_instantaneous"), other, 0.02 * (other - 1) + 1e-3,
+                "accuracy of the tables");
+    BOOST_TEST(result(statics, mesh + "_static_face_load_factor") > 1.05);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(files_and_warnings) {
   const test::TemporaryFolder folder("statics_4");
   write_file(folder.path() / "scene.toml", helical_stage());

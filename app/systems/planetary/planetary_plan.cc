@@ -1,12 +1,15 @@
 #include "app/systems/planetary/planetary_plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
 #include "app/model/stiff_supports.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/ring_structures.h"
+#include "app/systems/planetary/space/space_input.h"
+#include "app/systems/planetary/space/space_stage.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "core/units.h"
 
@@ -127,6 +130,19 @@ void add_axial_force(std::vector<std::string>& list, const Scene& scene, const G
       ring.name, to_text(of_mesh / 1e3, 3), structure.words().supports));
 }
 
+/// Which degrees of freedom annulus statics has, and why.
+void add_statics(std::vector<std::string>& list, const Scene& scene, const GearGeometry& geometry) {
+  if (!scene.own<SpaceInput>().any() && scene.stage.helix_angle == 0) return;
+  const auto reasons = spatial_frame(scene, geometry, 0).reasons_for_space();
+  if (reasons.empty())
+    list.emplace_back(
+        "annulus statics: no body moves along the axis or tilts. The teeth are spur, and faces, bearings and loads are "
+        "symmetric about the middle of the face.");
+  else
+    list.push_back(fmt::format("annulus statics: bodies also move along the axis and tilt, because {}.",
+                               fmt::join(reasons, "; ")));
+}
+
 std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometry, bool computed,
                                  bool sun_mesh_computed) {
   std::vector<std::string> list;
@@ -155,6 +171,7 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
       add_axial_force(list, scene, geometry, ring);
     }
   }
+  add_statics(list, scene, geometry);
   if (!scene.dynamics) {
     list.emplace_back("No [dynamics]: meshes, transmission error and stiffness only.");
     return list;

@@ -26,8 +26,7 @@ MeshInput in_transverse_section(const MeshInput& mesh, const geometry::GearPair&
   return result;
 }
 
-dynamics::PlanetaryStage unsupported_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
-                                           const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
+dynamics::PlanetaryStage stage_kinematics(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
   const auto& set = geometry.rings.at(ring).set;
   const auto& point = geometry.operating_point;
   const auto& e = scene.errors;
@@ -41,18 +40,25 @@ dynamics::PlanetaryStage unsupported_stage(const Scene& scene, const GearGeometr
     stage.planet_errors.push_back({{e.planet_eccentricity[n], e.planet_eccentricity_phase[n]},
                                    {e.planet_pin_position[n], e.planet_pin_position_phase[n]}});
   }
-  add_pitch_deviations(scene, set, sun_mesh, ring_mesh, stage);
-  const auto dependence = scene.dynamics ? scene.dynamics->load_dependence : dynamics::LoadDependence::table;
-  const auto excitation = [&](const MeshInput& input, const MeshResult& mesh, const geometry::GearPair& pair) {
-    return excitation_of(in_transverse_section(input, pair), mesh, point.mean_mesh_force, dependence,
-                         pair.back_flank_phase());
-  };
-  stage.sun_mesh = excitation(scene.sun_planet, sun_mesh, set.sun_mesh());
-  stage.ring_mesh = excitation(scene.ring_planet, ring_mesh, set.ring_mesh());
   stage.held = scene.stage.held;
   stage.carrier_speed = point.computed_speed(geometry::StageMember::carrier);
   stage.ring_speed = point.computed_speed(geometry::StageMember::ring);
   stage.sun_torque = point.sun_torque;
+  return stage;
+}
+
+dynamics::PlanetaryStage unsupported_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                           const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
+  auto stage = stage_kinematics(scene, geometry, ring);
+  const auto& set = geometry.rings.at(ring).set;
+  add_pitch_deviations(scene, set, sun_mesh, ring_mesh, stage);
+  const auto dependence = scene.dynamics ? scene.dynamics->load_dependence : dynamics::LoadDependence::table;
+  const auto excitation = [&](const MeshInput& input, const MeshResult& mesh, const geometry::GearPair& pair) {
+    return excitation_of(in_transverse_section(input, pair), mesh, geometry.operating_point.mean_mesh_force, dependence,
+                         pair.back_flank_phase());
+  };
+  stage.sun_mesh = excitation(scene.sun_planet, sun_mesh, set.sun_mesh());
+  stage.ring_mesh = excitation(scene.ring_planet, ring_mesh, set.ring_mesh());
   return stage;
 }
 

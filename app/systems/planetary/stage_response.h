@@ -38,7 +38,10 @@ struct StageResponse {
 /// in the transverse section: its mean times cos^2 of the base helix angle.
 [[nodiscard]] MeshInput in_transverse_section(const MeshInput& mesh, const geometry::GearPair& pair);
 
-/// The stage of one ring without masses, supports and what needs [dynamics]: kinematics, errors, meshes, torque.
+/// The stage of one ring as far as it follows from the gears: kinematics, errors of its bodies, speeds, torque.
+[[nodiscard]] dynamics::PlanetaryStage stage_kinematics(const Scene& scene, const GearGeometry& geometry,
+                                                        std::size_t ring);
+/// The same with its meshes, without masses, supports and what needs [dynamics].
 [[nodiscard]] dynamics::PlanetaryStage unsupported_stage(const Scene& scene, const GearGeometry& geometry,
                                                          std::size_t ring, const MeshResult& sun_mesh,
                                                          const MeshResult& ring_mesh);

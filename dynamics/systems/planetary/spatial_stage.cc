@@ -257,21 +257,25 @@ class Assembly {
     const double c = std::cos(stage_.base_helix_angle), s = std::sin(stage_.base_helix_angle);
     const double alpha = of_sun ? plane.sun_working_angle : plane.ring_working_angle;
     const Vector3d r = radial(phi), t = tangential(phi);
-    const Vector3d normal =
-        (of_sun ? 1 : -1) * side * c * std::cos(alpha) * t + c * std::sin(alpha) * r + side * s * Vector3d::UnitZ();
+    const Vector3d along = (of_sun ? 1 : -1) * side * std::cos(alpha) * t + std::sin(alpha) * r;
+    const Vector3d normal = c * along + side * s * Vector3d::UnitZ();
     const StageBody planet{Kind::planet, n};
     const int first = of_sun ? number({Kind::sun}) : number(planet);
     const int second = of_sun ? number(planet) : number({Kind::ring});
     const Vector3d pitch_point = of_sun ? Vector3d((plane.carrier.radius - stage_.planet_working_radius_sun) * r)
                                         : Vector3d((plane.carrier.radius + stage_.planet_working_radius_ring) * r);
     const double middle = of_sun ? stage_.sun_face.middle : stage_.ring_face.middle;
-    const auto count = static_cast<Eigen::Index>(law.stations().size());
-    Eigen::MatrixXd measures(count, 6 * static_cast<Eigen::Index>(mechanism().bodies()));
+    const Eigen::Index count = std::ssize(law.stations());
+    Eigen::MatrixXd measures(law.size(), 6 * static_cast<Eigen::Index>(mechanism().bodies()));
+    // n . (phi x e) per metre along the transverse line of action e.
+    if (law.leans()) measures.row(count) = mechanism().rotation(first, second, along.cross(normal));
     for (Eigen::Index i = 0; i < count; ++i) {
       const double z = middle + law.stations()[static_cast<std::size_t>(i)];
       measures.row(i) = mechanism().displacement(first, second, pitch_point + z * Vector3d::UnitZ(), normal);
     }
-    return {measures, Eigen::VectorXd::Constant(count, c * gap)};
+    Eigen::VectorXd offset = Eigen::VectorXd::Zero(law.size());
+    offset.head(count).setConstant(c * gap);
+    return {measures, offset};
   }
 
   void add_loads() {

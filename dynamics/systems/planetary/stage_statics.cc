@@ -19,19 +19,20 @@ StaticMesh mesh_in(const StageMechanism::Mesh& mesh, const Mechanism::Equilibriu
   StaticMesh result;
   const auto& law = *mesh.law;
   const auto element = static_cast<std::size_t>(mesh.driving);
-  const Eigen::VectorXd approach = (at.deflection[element].segment(mesh.first, law.size()).array() - loss).matrix();
+  Eigen::VectorXd approach = at.deflection[element].segment(mesh.first, law.size());
+  approach.head(std::ssize(law.stations())).array() -= loss;
   const auto state = law.at(approach);
   const Eigen::VectorXd line = law.line_load(approach, state);
   result.line_load.assign(line.begin(), line.end());
-  const double force = state.force.sum();
+  const double force = law.force(state);
   result.force = normal_factor * force;
   if (force > 0) {
     result.line_load_ratio = line.maxCoeff() * law.face_width() / force;
-    for (Eigen::Index i = 0; i < state.force.size(); ++i)
+    for (Eigen::Index i = 0; i < std::ssize(law.stations()); ++i)
       result.place += law.stations()[static_cast<std::size_t>(i)] * state.force[i] / force;
   }
   if (mesh.back < 0) return result;
-  const double back = at.state[static_cast<std::size_t>(mesh.back)].force.sum();
+  const double back = mesh.back_law->force(at.state[static_cast<std::size_t>(mesh.back)]);
   result.force -= normal_factor * back;
   result.back_flanks = back > 0;
   return result;

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "app/model/excitation.h"
@@ -16,6 +19,7 @@
 #include "core/errors.h"
 #include "core/units.h"
 #include "dynamics/spatial/even_face.h"
+#include "fem/problem/solved_face.h"
 #include "geometry/profile.h"
 
 namespace annulus::app {
@@ -154,39 +158,54 @@ std::vector<double> gaps_along(const geometry::GearPair& pair, double misalignme
   return gaps;
 }
 
-StageFace face_of(const Scene& scene, const geometry::GearPair& pair, const MeshInput& input,
-                  const dynamics::MeshExcitation& excitation, double misalignment, double factor, int stretches) {
+/// The place of a face, and whether it differs between its ends.
+StageFace place_of_face(const Scene& scene, const geometry::GearPair& pair, const MeshInput& input,
+                        double misalignment) {
   StageFace face;
   const auto common = pair.common_face();
   const auto& p = pair.pinion().parameters();
   face.middle = p.axial_offset - p.face_width / 2 + common.pinion.below + common.width / 2;
   constexpr double rounding = 1e-9;  // of widths and offsets in millimetres
   if (std::abs(face.middle) < rounding * common.width) face.middle = 0;
+  const auto gaps = gaps_along(pair, misalignment, {-common.width / 2, common.width / 2}, false);
+  face.symmetric = std::abs(gaps[0] - gaps[1]) <= rounding * units::mm;
+  face.backlash = backlash_of(scene, input, pair);
+  return face;
+}
+
+std::vector<double> stations_of(const geometry::GearPair& pair, int stretches) {
+  const double width = pair.common_face().width;
   std::vector<double> stations;
-  for (int i = 0; i <= stretches; ++i) stations.push_back(common.width * (static_cast<double>(i) / stretches - 0.5));
-  auto gaps = gaps_along(pair, misalignment, stations, input.stiffness == StiffnessShape::computed);
-  for (std::size_t i = 0; i < gaps.size() / 2; ++i)
-    if (std::abs(gaps[i] - gaps[gaps.size() - 1 - i]) > rounding * 1e-3) face.symmetric = false;
-  if (const double backlash = backlash_of(scene, input, pair); std::isfinite(backlash)) face.backlash = backlash;
+  for (int i = 0; i <= stretches; ++i) stations.push_back(width * (static_cast<double>(i) / stretches - 0.5));
+  return stations;
+}
+
+/// Its law: solid gears, or a whole mesh that is spread evenly; back flanks always so.
+void set_law(StageFace& face, const geometry::GearPair& pair, const MeshInput& input,
+             const dynamics::MeshExcitation& excitation, double misalignment, double factor, int stretches,
+             const std::shared_ptr<const fem::SolidFace>& solid, double mesh_force) {
   const double c = std::cos(pair.pinion().base_helix_angle());
-  face.law = [excitation, stations, gaps, c, factor](double phase, StageFace::Flank flank) {
+  const auto stations = stations_of(pair, stretches);
+  const auto gaps = gaps_along(pair, misalignment, stations, input.stiffness == StiffnessShape::computed);
+  face.law = [=](double phase, StageFace::Flank flank) -> std::shared_ptr<const FaceLaw> {
     const bool back = flank == StageFace::Flank::back;
+    if (solid && !back) return solid->at(phase, mesh_force / c);
     auto [law, stiffness] = whole_mesh(excitation, phase, c, factor, back);
     auto gap = gaps;
     const double unloaded = c * unloaded_error(excitation, phase) * (back ? -1 : 1);
     for (double& g : gap) g = (back ? 0 : g) + unloaded;
     return std::make_shared<dynamics::EvenFace>(std::move(law), stiffness, stations, std::move(gap));
   };
-  return face;
 }
 
 bool lead_crowned(const GearInput& gear) { return gear.lead_crowning != 0; }
 
-dynamics::SpatialStage stage_of(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
-                                const MeshResult& sun_mesh, const MeshResult& ring_mesh, const FaceChoice& choice) {
+}  // namespace
+
+dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
   const auto& set = geometry.rings.at(ring).set;
   dynamics::SpatialStage stage;
-  stage.plane = unsupported_stage(scene, geometry, ring, sun_mesh, ring_mesh);
+  stage.plane = stage_kinematics(scene, geometry, ring);
   auto& plane = stage.plane;
   const auto supports = supports_with_pins(scene);
   plane.sun.support = supports.sun;
@@ -203,33 +222,56 @@ dynamics::SpatialStage stage_of(const Scene& scene, const GearGeometry& geometry
   stage.base_helix_angle = planet.helix_angle() == 0 ? 0.0 : planet.base_helix_angle();
   stage.planet_working_radius_sun = planet.base_radius() / std::cos(set.sun_mesh().working_pressure_angle());
   stage.planet_working_radius_ring = planet.base_radius() / std::cos(set.ring_mesh().working_pressure_angle());
-  stage.sun_face = face_of(scene, set.sun_mesh(), scene.sun_planet, plane.sun_mesh,
-                           scene.errors.sun_planet_misalignment, choice.sun_factor, choice.stretches);
-  stage.ring_face = face_of(scene, set.ring_mesh(), scene.ring_planet, plane.ring_mesh,
-                            scene.errors.ring_planet_misalignment, choice.ring_factor, choice.stretches);
-  // Of the ring's modes nothing moves in an equilibrium: with them the compliance is the same.
-  if (ring_mesh.coupling && coupling_choice(scene, *ring_mesh.coupling).taken != RimCoupling::none)
-    plane.ring_coupling = taken_coupling(*ring_mesh.coupling, RimCoupling::statical);
+  stage.sun_face = place_of_face(scene, set.sun_mesh(), scene.sun_planet, scene.errors.sun_planet_misalignment);
+  stage.ring_face = place_of_face(scene, set.ring_mesh(), scene.ring_planet, scene.errors.ring_planet_misalignment);
   add_bearings(scene, stage);
   add_loads(scene, ring, stage);
   return stage;
 }
 
-}  // namespace
+std::shared_ptr<const fem::SolidFace> solid_face(const MeshResult& mesh, const RunOptions& options, int coarser) {
+  if (!mesh.model.computed()) return nullptr;
+  auto settings = mesh.model.settings;
+  if (!fem::why_no_solid_face(*mesh.model.problem, settings.fidelity).empty()) return nullptr;
+  settings.degree = static_cast<int>(mesh.fact("degree"));
+  settings.threads = options.threads;
+  settings.store = options.store;
+  const int level = static_cast<int>(mesh.fact("level"));
+  return std::make_shared<fem::SolidFace>(*mesh.model.problem, settings, std::max(0, level - coarser));
+}
 
 bool varies_in_cycle(const MeshInput& mesh) { return mesh.stiffness != StiffnessShape::constant; }
 
 dynamics::SpatialStage make_spatial_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                           const MeshResult& sun_mesh, const MeshResult& ring_mesh,
-                                          const FaceChoice& choice) {
+                                          const StageFaces& faces) {
+  auto stage = spatial_frame(scene, geometry, ring);
+  const auto with_meshes = unsupported_stage(scene, geometry, ring, sun_mesh, ring_mesh);
+  auto& plane = stage.plane;
+  plane.sun_tooth_errors = with_meshes.sun_tooth_errors;
+  plane.ring_tooth_errors = with_meshes.ring_tooth_errors;
+  plane.sun_mesh = with_meshes.sun_mesh;
+  plane.ring_mesh = with_meshes.ring_mesh;
+  // Of the ring's modes nothing moves in an equilibrium: with them the compliance is the same.
+  if (ring_mesh.coupling && coupling_choice(scene, *ring_mesh.coupling).taken != RimCoupling::none)
+    plane.ring_coupling = taken_coupling(*ring_mesh.coupling, RimCoupling::statical);
+  for (const auto& [face, solid, mesh] :
+       {std::tuple{&stage.sun_face, &faces.sun, &sun_mesh}, {&stage.ring_face, &faces.ring, &ring_mesh}})
+    if (*solid) face->symmetric = fem::asymmetry_of_face(*mesh->model.problem).empty();
   // All of a face that is even is alike while nothing tilts.
-  const auto whole = stage_of(scene, geometry, ring, sun_mesh, ring_mesh, {choice.sun_factor, choice.ring_factor, 1});
   const bool crowned = lead_crowned(scene.sun) || lead_crowned(scene.planet) || lead_crowned(scene.rings[ring]);
-  if (whole.reasons_for_space().empty() && !crowned) return whole;
-  return stage_of(scene, geometry, ring, sun_mesh, ring_mesh, choice);
+  const int stretches = stage.reasons_for_space().empty() && !crowned ? 1 : faces.stretches;
+  const auto& set = geometry.rings.at(ring).set;
+  const double force = geometry.operating_point.mean_mesh_force;
+  set_law(stage.sun_face, set.sun_mesh(), scene.sun_planet, plane.sun_mesh, scene.errors.sun_planet_misalignment,
+          faces.sun_factor, stretches, faces.sun, force);
+  set_law(stage.ring_face, set.ring_mesh(), scene.ring_planet, plane.ring_mesh, scene.errors.ring_planet_misalignment,
+          faces.ring_factor, stretches, faces.ring, force);
+  return stage;
 }
 
-std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const dynamics::SpatialStage& stage) {
+std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const dynamics::SpatialStage& stage,
+                                    const StageFaces& faces) {
   std::vector<Warning> list;
   const auto& name = scene.rings.at(ring).name;
   if (!stage.reasons_for_space().empty()) {
@@ -248,14 +290,15 @@ std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const 
                                   "than the other",
                                   fmt::join(held, ", ")),
                       name});
-    if (scene.sun_planet.stiffness == StiffnessShape::computed ||
-        scene.ring_planet.stiffness == StiffnessShape::computed)
-      list.push_back(
-          {"even_faces", Severity::warning,
-           "computed mesh stiffnesses are spread evenly over the face: every part of it gives way by itself. "
-           "Real teeth support the loaded part from beside it, so that K_Hβ is overestimated where the load "
-           "is uneven, and its error bar does not contain that",
-           name});
+    const bool spread = (scene.sun_planet.stiffness == StiffnessShape::computed && !faces.sun) ||
+                        (scene.ring_planet.stiffness == StiffnessShape::computed && !faces.ring);
+    if (spread)
+      list.push_back({"even_faces", Severity::warning,
+                      "a computed mesh stiffness is spread evenly over the face: every part of it gives way by itself. "
+                      "Real teeth support the loaded part from beside it, so that K_Hβ is overestimated where the load "
+                      "is uneven, and its error bar does not contain that. Solid models of rings that stand on no "
+                      "single supports, with planets on hubs, need no such assumption",
+                      name});
   }
   return list;
 }

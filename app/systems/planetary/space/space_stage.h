@@ -1,35 +1,45 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "app/model/mesh_result.h"
+#include "app/model/run_options.h"
 #include "app/plan/gear_geometry.h"
 #include "app/plan/warning.h"
 #include "app/scene/scene.h"
 #include "dynamics/systems/planetary/spatial_stage.h"
+#include "fem/face/solid_face.h"
 
 /// A planetary stage of a scene in three dimensions.
 namespace annulus::app {
 
-/// Stretches of a face, between whose ends the load is found.
+/// Stretches of a face that is no solid one, between whose ends the load is found.
 inline constexpr int face_stretches = 24;
 
-/// On the stiffness of its meshes, of which each is multiplied by a factor (1, but for the propagation of their
-/// errors). `stretches`: of the faces.
-struct FaceChoice {
-  double sun_factor = 1, ring_factor = 1;
+/// How the meshes of a stage are known along their faces.
+struct StageFaces {
+  /// Solid gears; null: the table of the mesh, spread evenly.
+  std::shared_ptr<const fem::SolidFace> sun{}, ring{};
+  double sun_factor = 1, ring_factor = 1;  ///< of stiffnesses that are spread
   int stretches = face_stretches;
 };
 [[nodiscard]] dynamics::SpatialStage make_spatial_stage(const Scene& scene, const GearGeometry& geometry,
                                                         std::size_t ring, const MeshResult& sun_mesh,
-                                                        const MeshResult& ring_mesh, const FaceChoice& choice = {});
+                                                        const MeshResult& ring_mesh, const StageFaces& faces);
+/// The same without its meshes, before they are solved.
+[[nodiscard]] dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geometry, std::size_t ring);
+
+/// A computed mesh as solid gears along their face, at the level of its table less `coarser`; null where there is none.
+[[nodiscard]] std::shared_ptr<const fem::SolidFace> solid_face(const MeshResult& mesh, const RunOptions& options,
+                                                               int coarser = 0);
 
 /// Whether the stiffness of a mesh changes within a mesh cycle.
 [[nodiscard]] bool varies_in_cycle(const MeshInput& mesh);
 
 /// What the stage leaves out, and what is assumed because the scene does not say.
 [[nodiscard]] std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring,
-                                                  const dynamics::SpatialStage& stage);
+                                                  const dynamics::SpatialStage& stage, const StageFaces& faces);
 
 }  // namespace annulus::app

@@ -193,7 +193,7 @@ Table statics_table() {
       .from(1, 100000);
   statics.key("mesh_phases", &StaticsInput::phases, "Positions in the mesh cycle that begins at each of them.")
       .from(1, 1000)
-      .absent("one where no stiffness changes in the mesh cycle, otherwise 8");
+      .absent("one where no stiffness changes in the mesh cycle, 4 of solid gears, otherwise 8");
   return statics.done();
 }
 

@@ -113,11 +113,11 @@ void mirror(StaticTurn& turn) {
 }
 
 /// Places and phases that show something.
-StaticSchedule schedule_of(const Scene& scene, const dynamics::SpatialStage& stage) {
+StaticSchedule schedule_of(const Scene& scene, const dynamics::SpatialStage& stage, const StageFaces& faces) {
   const auto& wanted = scene.own<SpaceInput>().statics;
   const bool in_cycle = varies_in_cycle(scene.sun_planet) || varies_in_cycle(scene.ring_planet);
   const bool over_turn = stage.depends_on_carrier_angle() || stage.plane.error_period() > 1;
-  constexpr int usual_phases = 8;
+  const int usual_phases = faces.sun || faces.ring ? 4 : 8;
   return dynamics::turn_of_carrier(stage.plane, over_turn ? wanted.places : 1,
                                    wanted.phases.value_or(in_cycle ? usual_phases : 1));
 }
@@ -156,65 +156,130 @@ void warn_of_back_flanks(std::vector<Warning>& list, const StaticTurn& turn, con
                     ring});
 }
 
+/// Meshes whose load somewhere on the face is beyond their table, which is continued there.
+void warn_of_loads_beyond(std::vector<Warning>& list, const StaticTurn& turn, const MeshResult& mesh, bool sun,
+                          const std::string& ring, double normal_factor) {
+  if (!mesh.tabulated || mesh.table.loads().size() < 2) return;
+  const auto& stations = sun ? turn.sun_stations : turn.ring_stations;
+  const double width = stations.back() - stations.front(), most = mesh.table.loads().back();
+  double largest_load = 0;
+  for (const auto& p : turn.positions)
+    for (const auto& m : sun ? p.sun_meshes : p.ring_meshes)
+      for (const double load : m.line_load) largest_load = std::max(largest_load, load * width * normal_factor);
+  if (largest_load <= most) return;
+  list.push_back(
+      {"beyond_table", Severity::warning,
+       fmt::format("{}: the load somewhere on the face is that of {:.3g} kN on all of it, more than the {:.3g} "
+                   "kN up to which its stiffness is tabulated; it is continued there with its last tangent",
+                   sun ? "sun mesh" : "ring mesh", largest_load / 1e3, most / 1e3),
+       ring});
+}
+
+/// Bodies that tilt need solid gears, where the scene leaves the model to the program.
+Scene with_solids_in_space(const Scene& scene, const GearGeometry& geometry) {
+  Scene chosen = scene;
+  if (scene.fidelity != Fidelity::automatic) return chosen;
+  for (std::size_t ring = 0; ring < scene.rings.size(); ++ring)
+    if (!spatial_frame(scene, geometry, ring).reasons_for_space().empty()) chosen.fidelity = Fidelity::solid;
+  return chosen;
+}
+
+/// Solid gears along a face at the level of their table, and one level coarser; null without.
+struct FaceLevels {
+  std::shared_ptr<const fem::SolidFace> fine, coarse;
+};
+
+struct RingProblem {
+  const Scene& scene;
+  const GearGeometry& geometry;
+  std::size_t ring;
+  const MeshResult &sun_mesh, &ring_mesh;
+  const FaceLevels &sun_face, &ring_face;
+};
+
+RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
+  const auto make = [&](const StageFaces& faces) {
+    return make_spatial_stage(of.scene, of.geometry, of.ring, of.sun_mesh, of.ring_mesh, faces);
+  };
+  const StageFaces faces{.sun = of.sun_face.fine, .ring = of.ring_face.fine};
+  const auto stage = make(faces);
+  const auto schedule = schedule_of(of.scene, stage, faces);
+  const auto solved = [&](const dynamics::SpatialStage& s) {
+    return dynamics::solve_turn(s, schedule, options.threads);
+  };
+  RingStatics result;
+  result.ring = of.scene.rings[of.ring].name;
+  result.turn = solved(stage);
+  std::vector<OtherTurn> others;
+  // What lies between the positions falls with the square of their distance: half of them leave four times as much. The
+  // other half has the largest value where one does not.
+  constexpr double of_half = 1.0 / 3;
+  for (const std::size_t from : {0u, 1u}) {
+    if (schedule.cycles.size() > 1) others.push_back({every_second(result.turn, true, from), of_half});
+    if (schedule.phases > 1) others.push_back({every_second(result.turn, false, from), of_half});
+  }
+  // The elements leave no more than what a level changes.
+  if (faces.sun || faces.ring)
+    others.push_back({solved(make({.sun = of.sun_face.coarse, .ring = of.ring_face.coarse}))});
+  const auto spread = [&](const std::shared_ptr<const fem::SolidFace>& face) { return !face; };
+  if ((spread(faces.sun) && result.turn.sun_stations.size() > 2) ||
+      (spread(faces.ring) && result.turn.ring_stations.size() > 2)) {
+    auto fewer = faces;
+    fewer.stretches /= 2;
+    others.push_back({solved(make(fewer)), of_half});
+  }
+  if (const double error = stiffness_error(of.sun_mesh); error > 0 && spread(faces.sun)) {
+    auto stiffer = faces;
+    stiffer.sun_factor += error;
+    others.push_back({solved(make(stiffer))});
+  }
+  if (const double error = stiffness_error(of.ring_mesh); error > 0 && spread(faces.ring)) {
+    auto stiffer = faces;
+    stiffer.ring_factor += error;
+    others.push_back({solved(make(stiffer))});
+  }
+  result.figures = all_figures(result.turn, others);
+  result.bearings = all_bearings(stage, result.turn, others);
+  for (std::size_t b = 0; b < result.turn.body_names.size(); ++b)
+    result.tilt.push_back(with_error(result.turn, others, [&](const StaticTurn& t) {
+      return largest(t, [&](const StaticPosition& p) { return p.bodies.at(b).rotation.head<2>().norm(); });
+    }));
+  result.reasons = stage.reasons_for_space();
+  result.mean_mesh_force = stage.plane.mean_mesh_force();
+  result.worst_residual = largest(result.turn, [](const StaticPosition& p) { return p.residual_relative; });
+  result.warnings = space_warnings(of.scene, of.ring, stage, faces);
+  warn_of_back_flanks(result.warnings, result.turn, result.ring);
+  const double normal_factor = std::cos(stage.base_helix_angle);
+  if (!faces.sun) warn_of_loads_beyond(result.warnings, result.turn, of.sun_mesh, true, result.ring, normal_factor);
+  if (!faces.ring) warn_of_loads_beyond(result.warnings, result.turn, of.ring_mesh, false, result.ring, normal_factor);
+  if (of.geometry.operating_point.mirrored) mirror(result.turn);
+  return result;
+}
+
 }  // namespace
 
 StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, const RunOptions& run_options) {
   check_sun(scene);
   RunOptions options = run_options;
   options.with_dynamics = false;
-  const auto models = mesh_models(scene, geometry);
+  const Scene chosen = with_solids_in_space(scene, geometry);
   std::vector<MeshResult> tables;
-  for (const auto& model : models) {
-    auto& mesh = tables.emplace_back(mesh_stiffness(scene, geometry, model, options));
-    if (may_be_coupled_at_rest(scene, model))
+  std::vector<FaceLevels> faces;
+  for (const auto& model : mesh_models(chosen, geometry)) {
+    auto& mesh = tables.emplace_back(mesh_stiffness(chosen, geometry, model, options));
+    if (may_be_coupled_at_rest(chosen, model))
       mesh.coupling = std::make_shared<SolvedCoupling>(solve_coupling(
-          scene, geometry, model, 1 / mesh.mean_stiffness().value, options, options.out / model.ring / "statics"));
+          chosen, geometry, model, 1 / mesh.mean_stiffness().value, options, options.out / model.ring / "statics"));
+    faces.push_back({solid_face(mesh, options), solid_face(mesh, options, 1)});
   }
   StageStatics statics{scene, {}};
   for (std::size_t ring = 0; ring < scene.rings.size(); ++ring) {
-    const auto &sun_mesh = tables.front(), &ring_mesh = tables.at(ring + 1);
-    const auto make = [&](const FaceChoice& choice) {
-      return make_spatial_stage(scene, geometry, ring, sun_mesh, ring_mesh, choice);
-    };
-    const auto stage = make({});
-    const auto schedule = schedule_of(scene, stage);
-    const auto solved = [&](const dynamics::SpatialStage& s) {
-      try {
-        return dynamics::solve_turn(s, schedule, options.threads);
-      } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: ring '{}': {}", scene.file.string(), scene.rings[ring].name, error.what()));
-      }
-    };
-    RingStatics result;
-    result.ring = scene.rings[ring].name;
-    result.turn = solved(stage);
-    std::vector<OtherTurn> others;
-    // What lies between the positions falls with the square of their distance: half of them leave four times as much.
-    // The other half has the largest value where one does not.
-    constexpr double of_half = 1.0 / 3;
-    for (const std::size_t from : {0u, 1u}) {
-      if (schedule.cycles.size() > 1) others.push_back({every_second(result.turn, true, from), of_half});
-      if (schedule.phases > 1) others.push_back({every_second(result.turn, false, from), of_half});
+    try {
+      statics.rings.push_back(solve_ring(
+          {chosen, geometry, ring, tables.front(), tables.at(ring + 1), faces.front(), faces.at(ring + 1)}, options));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: ring '{}': {}", scene.file.string(), scene.rings[ring].name, error.what()));
     }
-    if (stage.sun_face.law(0, dynamics::StageFace::Flank::driving)->size() > 2)
-      others.push_back({solved(make({.stretches = face_stretches / 2})), of_half});
-    if (const double error = stiffness_error(sun_mesh); error > 0)
-      others.push_back({solved(make({.sun_factor = 1 + error}))});
-    if (const double error = stiffness_error(ring_mesh); error > 0)
-      others.push_back({solved(make({.ring_factor = 1 + error}))});
-    result.figures = all_figures(result.turn, others);
-    result.bearings = all_bearings(stage, result.turn, others);
-    for (std::size_t b = 0; b < result.turn.body_names.size(); ++b)
-      result.tilt.push_back(with_error(result.turn, others, [&](const StaticTurn& t) {
-        return largest(t, [&](const StaticPosition& p) { return p.bodies.at(b).rotation.head<2>().norm(); });
-      }));
-    result.reasons = stage.reasons_for_space();
-    result.mean_mesh_force = stage.plane.mean_mesh_force();
-    result.worst_residual = largest(result.turn, [](const StaticPosition& p) { return p.residual_relative; });
-    result.warnings = space_warnings(scene, ring, stage);
-    warn_of_back_flanks(result.warnings, result.turn, result.ring);
-    if (geometry.operating_point.mirrored) mirror(result.turn);
-    statics.rings.push_back(std::move(result));
   }
   return statics;
 }
