@@ -6,8 +6,8 @@
 
 #include "contact_bench.h"
 #include "core/errors.h"
-#include "fem/face/solid_face.h"
 #include "fem/problem/solved_pair.h"
+#include "fem/solid_face.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"
 

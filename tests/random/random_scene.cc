@@ -48,7 +48,8 @@ double in_range(const Parameter& p, double value) { return rounded(std::clamp(va
 bool is_undrawn(const Parameter& p) {
   return std::any_of(undrawn_keys().begin(), undrawn_keys().end(), [key = p.key()](const auto& undrawn) {
     const auto& name = undrawn.first;
-    return key == name || (name.starts_with("*.") && key.ends_with(name.substr(1)));
+    return key == name || (name.starts_with("*.") && key.ends_with(name.substr(1))) ||
+           (name.ends_with(".*") && key.starts_with(name.substr(0, name.size() - 1)));
   });
 }
 
@@ -222,14 +223,11 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"errors.planet_pitch_class", "the motion repeats after all teeth"},
       {"errors.ring_pitch_class", "the motion repeats after all teeth"},
       {"errors.pitch_seed", "of the pitch classes"},
-      {"strain_gauge.name", "gauges change nothing"},
-      {"strain_gauge.ring", "gauges change nothing"},
-      {"strain_gauge.place", "gauges change nothing"},
-      {"strain_gauge.angle_deg", "gauges change nothing"},
-      {"strain_gauge.offset_mm", "gauges change nothing"},
-      {"strain_gauge.length_mm", "gauges change nothing"},
-      {"strain_gauge.direction", "gauges change nothing"},
-      {"strain_gauge.axial_positions_mm", "gauges change nothing"},
+      {"strain_gauge.*", "gauges change nothing"},
+      {"bearing.*", "of annulus statics alone"},
+      {"load.*", "of annulus statics alone"},
+      {"gravity.*", "of annulus statics alone"},
+      {"statics.*", "of annulus statics alone"},
       {"dynamics.mesh_cycles", "a length of motion, without a steady state"},
   };
   return keys;

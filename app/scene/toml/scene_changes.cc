@@ -118,6 +118,15 @@ toml::table value_of_setting(const std::string& text) {
   throw InputError("--set " + setting + ": " + why);
 }
 
+/// The array of tables with names that a path begins with; null where it is another table.
+const Table* named_array(const std::string& head) {
+  for (const auto& table : schema())
+    if (table.repeated && find_parameter(table.path + ".name") &&
+        (head == table.path || head.starts_with(table.path + ".")))
+      return &table;
+  return nullptr;
+}
+
 void apply_setting(toml::table& root, const std::string& setting) {
   const auto equal = setting.find('=');
   if (equal == std::string::npos) refuse_setting(setting, "must be KEY=VALUE");
@@ -130,22 +139,24 @@ void apply_setting(toml::table& root, const std::string& setting) {
   const auto dot = path.rfind('.');
   const auto name = dot == std::string::npos ? path : path.substr(dot + 1);
   auto head = dot == std::string::npos ? std::string() : path.substr(0, dot);
-  const bool ring = head == "ring" || head.starts_with("ring.");
-  const auto ring_name = ring && head.size() > 5 ? head.substr(5) : std::string();
-  if (ring) head = "ring";
+  // [[ring]], [[bearing]]: of all tables, or of the one that is named.
+  const auto* array = named_array(head);
+  const auto table_name =
+      array != nullptr && head.size() > array->path.size() ? head.substr(array->path.size() + 1) : std::string();
+  if (array != nullptr) head = array->path;
   const auto key = head.empty() ? name : head + "." + name;
   if (!find_parameter(key)) refuse_setting(setting, "there is no such key" + did_you_mean(key, all_keys()));
   const auto* declared = find_table(head);
-  if (ring) {
-    auto* rings = root["ring"].as_array();
+  if (array != nullptr) {
+    auto* tables = root[head].as_array();
     bool found = false;
-    for (std::size_t i = 0; rings != nullptr && i < rings->size(); ++i) {
-      auto* table = rings->get(i)->as_table();
-      if (table == nullptr || (!ring_name.empty() && (*table)["name"].value_or(std::string()) != ring_name)) continue;
+    for (std::size_t i = 0; tables != nullptr && i < tables->size(); ++i) {
+      auto* table = tables->get(i)->as_table();
+      if (table == nullptr || (!table_name.empty() && (*table)["name"].value_or(std::string()) != table_name)) continue;
       put(*table, name, value);
       found = true;
     }
-    if (!found) refuse_setting(setting, "the scene has no such [[ring]]");
+    if (!found) refuse_setting(setting, fmt::format("the scene has no such [[{}]]", head));
     return;
   }
   if (declared->repeated) refuse_setting(setting, declared->header() + " are several; edit the scene");

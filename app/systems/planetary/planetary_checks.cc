@@ -18,7 +18,7 @@
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/ring_structures.h"
-#include "app/systems/planetary/space/space_tables.h"
+#include "app/systems/planetary/space_tables.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/profile_shifts.h"

@@ -8,8 +8,8 @@
 #include "app/model/stiff_supports.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/ring_structures.h"
-#include "app/systems/planetary/space/space_input.h"
-#include "app/systems/planetary/space/space_stage.h"
+#include "app/systems/planetary/space_input.h"
+#include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "core/units.h"
 

@@ -3,7 +3,7 @@
 #include "app/scene/gear_tables.h"
 #include "app/systems/planetary/pitch_deviations.h"
 #include "app/systems/planetary/planetary_scene.h"
-#include "app/systems/planetary/space/space_tables.h"
+#include "app/systems/planetary/space_tables.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "geometry/flank_tolerances.h"
 

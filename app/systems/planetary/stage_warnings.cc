@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/model/scene_warnings.h"
-#include "app/systems/planetary/space/space_input.h"
+#include "app/systems/planetary/space_input.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "core/units.h"

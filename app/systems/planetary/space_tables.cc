@@ -1,4 +1,4 @@
-#include "app/systems/planetary/space/space_tables.h"
+#include "app/systems/planetary/space_tables.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_declare.h"
-#include "app/systems/planetary/space/space_input.h"
+#include "app/systems/planetary/space_input.h"
 #include "core/errors.h"
 #include "dynamics/spatial/elastic_laws.h"
 
@@ -111,8 +111,9 @@ Table bearing_table() {
       .from(0, 1e5);
   bearing
       .key("stiffness_5x5_N_m_rad", &BearingInput::matrix,
-           "Stiffness matrix in rows, 25 values: forces along x, y, z (N) and moments about x, y (N m) over the "
-           "displacements along x, y, z (m) and the tilts about x, y (rad) of the body in the place of the bearing. "
+           "Stiffness matrix in rows, 25 values. Rows are forces along x, y, z (N) and moments about x, y (N m). "
+           "Columns "
+           "are displacements along x, y, z (m) and tilts about x, y (rad) of the body in the place of the bearing. "
            "Symmetric.")
       .from(-1e15, 1e15)
       .longest(25)

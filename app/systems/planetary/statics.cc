@@ -1,4 +1,4 @@
-#include "app/systems/planetary/space/statics.h"
+#include "app/systems/planetary/statics.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/rim_coupling.h"
-#include "app/systems/planetary/space/space_input.h"
-#include "app/systems/planetary/space/space_stage.h"
+#include "app/systems/planetary/space_input.h"
+#include "app/systems/planetary/space_stage.h"
 #include "core/errors.h"
 #include "core/log.h"
 

@@ -1,4 +1,4 @@
-#include "app/systems/planetary/space/space_stage.h"
+#include "app/systems/planetary/space_stage.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +13,7 @@
 
 #include "app/model/excitation.h"
 #include "app/systems/planetary/rim_coupling.h"
-#include "app/systems/planetary/space/space_input.h"
+#include "app/systems/planetary/space_input.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "core/errors.h"

@@ -10,7 +10,7 @@
 #include "app/plan/warning.h"
 #include "app/scene/scene.h"
 #include "dynamics/systems/planetary/spatial_stage.h"
-#include "fem/face/solid_face.h"
+#include "fem/solid_face.h"
 
 /// A planetary stage of a scene in three dimensions.
 namespace annulus::app {

@@ -1,4 +1,4 @@
-#include "fem/face/solid_face.h"
+#include "fem/solid_face.h"
 
 #include <fmt/format.h>
 
