@@ -21,7 +21,7 @@ namespace {
 using dynamics::StaticMesh;
 using dynamics::StaticPosition;
 
-constexpr double kilo = 1e-3, micro = 1e6;
+constexpr double to_micro = 1e6;
 
 /// The meshes of a kind with their names.
 struct MeshKind {
@@ -87,7 +87,7 @@ Csv bodies_csv(const RingStatics& ring) {
   auto csv = with_positions(ring, columns, [](const StaticPosition& p, std::vector<double>& row) {
     for (const auto& body : p.bodies)
       for (const auto* part : {&body.displacement, &body.rotation})
-        for (const double value : *part) row.push_back(micro * value);
+        for (const double value : *part) row.push_back(to_micro * value);
   });
   csv.header.emplace_back("frame", "the carrier's; of planets x radial, y tangential");
   return csv;
@@ -214,7 +214,7 @@ Blocks bearing_blocks(const RingStatics& ring) {
   blocks += table;
   PageTable tilts{.head = {"body", "tilt, largest, µrad"}, .style = PageTable::Style::numbers};
   for (std::size_t b = 0; b < ring.tilt.size(); ++b)
-    tilts.rows.push_back({ring.turn.body_names[b], measured(ring.tilt[b], micro)});
+    tilts.rows.push_back({ring.turn.body_names[b], measured(ring.tilt[b], to_micro)});
   if (!ring.reasons.empty()) blocks += tilts;
   return blocks;
 }
