@@ -40,4 +40,11 @@ fs::path OutsideCase::run(const std::string& file) const {
   return folder_.path() / file;
 }
 
+fs::path OutsideCase::statics(const std::string& file, const std::string& arguments) const {
+  const auto command = "statics --quiet " + arguments + " -o '" + file + "' '" + scene(file).string() + "'";
+  const auto outcome = run_program(folder_.path(), command);
+  BOOST_TEST_REQUIRE(outcome.status == 0, command << ": " << outcome.err);
+  return folder_.path() / file;
+}
+
 }  // namespace annulus::test

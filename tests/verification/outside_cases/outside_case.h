@@ -26,6 +26,8 @@ class OutsideCase {
   /// `annulus check`, then `annulus run`; the folder of its results, which lives as long as this. A failed check of the
   /// test when either fails.
   [[nodiscard]] std::filesystem::path run(const std::string& file) const;
+  /// `annulus statics` with further arguments; the folder of its results.
+  [[nodiscard]] std::filesystem::path statics(const std::string& file, const std::string& arguments) const;
 
  private:
   std::string name_;
