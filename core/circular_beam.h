@@ -23,6 +23,15 @@ struct CircularBeam {
   [[nodiscard]] double cantilever(double length) const {
     return std::pow(length, 3) / (3 * bending()) + length / shear();
   }
+  /// rad/(N m): the free end of a cantilever under a moment there: L / (E I).
+  [[nodiscard]] double cantilever_bend(double length) const { return length / bending(); }
+  /// N m/rad: one end of a piece turns against the other, which is clamped, and does not shift.
+  [[nodiscard]] double clamped_turn(double length) const {
+    const double phi = 12 * bending() / (shear() * length * length);
+    return (4 + phi) * bending() / ((1 + phi) * length);
+  }
+  /// N/m along its axis: E A / L.
+  [[nodiscard]] double stretch(double length) const { return youngs_modulus * M_PI * diameter * diameter / 4 / length; }
   /// rad/N: L^2 / (2 E I).
   [[nodiscard]] double cantilever_tilt(double length) const { return length * length / (2 * bending()); }
 };

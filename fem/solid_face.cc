@@ -45,17 +45,16 @@ class SolidFace::Bodies {
   [[nodiscard]] double normal_factor() const { return std::cos(flanks_.pair().pinion().base_helix_angle()); }
   /// `reach`: of the expected load, for elements and for the pairs that are looked for.
   [[nodiscard]] std::shared_ptr<const ToothPairs> pairs(double phase, double load, double reach) const {
+    const Key key{phase, load, reach};
+    const auto entry = entry_of(key);
+    std::call_once(entry->once, [&] { entry->pairs = system_.pairs(phase, reach * load); });
     const std::lock_guard guard(lock_);
-    const auto key = std::make_tuple(phase, load, reach);
-    if (const auto found = prepared_.find(key); found != prepared_.end()) return found->second;
-    // Larger than what two threads need at once.
-    constexpr std::size_t most = 64;
-    if (order_.size() >= most) {
-      prepared_.erase(order_.front());
-      order_.pop_front();
+    const auto found = prepared_.find(key);
+    if (found != prepared_.end() && found->second == entry && !entry->counted) {
+      bytes_ += bytes_of(*entry->pairs);
+      entry->counted = true;
     }
-    order_.push_back(key);
-    return prepared_[key] = system_.pairs(phase, reach * load);
+    return entry->pairs;
   }
 
   /// m, of the elements along the line of action, from the pitch point into the driven gear.
@@ -70,6 +69,29 @@ class SolidFace::Bodies {
   }
 
  private:
+  using Key = std::tuple<double, double, double>;
+  struct Entry {
+    std::once_flag once;
+    std::shared_ptr<const ToothPairs> pairs;
+    bool counted = false;
+  };
+  static double bytes_of(const ToothPairs& pairs) { return 8.0 * static_cast<double>(pairs.compliance.size()); }
+
+  /// The place of some pairs, which the first one who asks prepares. The oldest ones go where they become too large.
+  [[nodiscard]] std::shared_ptr<Entry> entry_of(const Key& key) const {
+    constexpr double most_bytes = 3e8;
+    const std::lock_guard guard(lock_);
+    if (const auto found = prepared_.find(key); found != prepared_.end()) return found->second;
+    while (bytes_ > most_bytes && !order_.empty()) {
+      const auto oldest = prepared_.find(order_.front());
+      if (oldest->second->counted) bytes_ -= bytes_of(*oldest->second->pairs);
+      prepared_.erase(oldest);
+      order_.pop_front();
+    }
+    order_.push_back(key);
+    return prepared_[key] = std::make_shared<Entry>();
+  }
+
   [[nodiscard]] ContactOptions options(const LoadedMeshSettings& settings, int level) const {
     ContactOptions options;
     // As long as those of a table, although the window is that of more load.
@@ -86,8 +108,9 @@ class SolidFace::Bodies {
   ContactSystem system_;
   std::vector<double> stations_;
   mutable std::mutex lock_;
-  mutable std::map<std::tuple<double, double, double>, std::shared_ptr<const ToothPairs>> prepared_;
-  mutable std::deque<std::tuple<double, double, double>> order_;
+  mutable std::map<Key, std::shared_ptr<Entry>> prepared_;
+  mutable std::deque<Key> order_;
+  mutable double bytes_ = 0;  // of the pairs that are held
 };
 
 namespace {

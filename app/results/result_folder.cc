@@ -309,7 +309,7 @@ bool is_of_tradeoff(const std::string& name) {
 }
 
 bool is_of_statics(const std::string& name) {
-  if (name.starts_with("statics_pictures/") || name.find("/statics/") != std::string::npos) return true;
+  if (name.starts_with("statics/") || name.starts_with("statics_pictures/")) return true;
   return name.starts_with("statics.") && name.find('/') == std::string::npos;
 }
 

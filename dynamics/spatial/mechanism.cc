@@ -1,6 +1,7 @@
 #include "dynamics/spatial/mechanism.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -149,15 +150,23 @@ class Mechanism::Solver {
   /// Does anything resist every motion, when all that can touch does?
   void check_stable() const {
     if (basis_.cols() == 0) return;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(in_contact_);
-    if (modes.eigenvalues()[0] > 1e-11 * modes.eigenvalues().maxCoeff()) return;
+    // In units of the stiffness of each coordinate: soft bearings stand beside stiff ones.
+    Eigen::VectorXd unit = in_contact_.diagonal();
+    for (double& u : unit) u = u > 0 ? 1 / std::sqrt(u) : 1.0;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(unit.asDiagonal() * in_contact_ * unit.asDiagonal());
+    constexpr double rounding = 1e-12;
+    if (modes.eigenvalues()[0] > rounding) return;
     // In lengths.
-    Eigen::VectorXd motion = (basis_ * modes.eigenvectors().col(0)).cwiseQuotient(scale_);
+    const Eigen::VectorXd motion = (basis_ * (unit.asDiagonal() * modes.eigenvectors().col(0))).cwiseQuotient(scale_);
     Eigen::Index largest = 0;
-    motion.cwiseAbs().maxCoeff(&largest);
+    const double most = motion.cwiseAbs().maxCoeff(&largest);
     constexpr const char* words[] = {"along x", "along y", "along the axis", "about x", "about y", "about the axis"};
-    throw InputError(fmt::format("nothing resists a motion of the {} {}: give it a bearing or support that does",
-                                 mechanism_.body(static_cast<int>(largest / 6)).name, words[largest % 6]));
+    std::vector<std::string> names;
+    for (int b = 0; b < mechanism_.bodies(); ++b)
+      if (std::abs(motion[6 * b + largest % 6]) >= 0.1 * most) names.push_back(mechanism_.body(b).name);
+    throw InputError(fmt::format("nothing resists a motion of {} {}{}: give {} a bearing or support that does",
+                                 fmt::join(names, ", "), words[largest % 6], names.size() > 1 ? " together" : "",
+                                 names.size() > 1 ? "one of them" : "it"));
   }
 
   /// Where everything is in contact and pulls as well.

@@ -1,10 +1,11 @@
-#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <memory>
 #include <vector>
 
 #include "core/errors.h"
+#include "dynamics/spatial/coupled_faces.h"
 #include "dynamics/spatial/elastic_laws.h"
 #include "dynamics/spatial/even_face.h"
 #include "tests/verification_record.h"
@@ -85,6 +86,38 @@ BOOST_AUTO_TEST_CASE(misaligned_pair) {
       record.close("K_Hbeta at six slopes, 1 and 7 stretches", "", ratio, expected, 1e-10, "bisection");
     }
   }
+}
+
+// Meshes that press on each other through a common body: energy, and the forces by hand where all of them touch.
+BOOST_AUTO_TEST_CASE(coupled_faces) {
+  annulus::test::Verification record("Meshes coupled through the ring", "linear equations by hand; differences");
+  std::vector<std::shared_ptr<const annulus::FaceLaw>> meshes;
+  for (const double k : {2e9, 3e9, 4e9})
+    meshes.push_back(
+        std::make_shared<EvenFace>(k, std::vector<double>{-0.05, 0.0, 0.05}, std::vector<double>{0, 0, 0}));
+  Eigen::Matrix3d d;
+  d << 0, 4e-11, -2e-11, 4e-11, 0, 5e-11, -2e-11, 5e-11, 0;
+  const CoupledFaces law(meshes, d);
+  BOOST_TEST(law.size() == 9);
+  Eigen::VectorXd approach(9);
+  approach << 30e-6, 32e-6, 34e-6, 20e-6, 20e-6, 20e-6, 25e-6, 24e-6, 23e-6;
+  const auto state = law.at(approach);
+  // (1/k + D) F = mean approach.
+  Eigen::Matrix3d compliance = d;
+  compliance.diagonal() += Eigen::Vector3d(1 / 2e9, 1 / 3e9, 1 / 4e9);
+  const Eigen::Vector3d expected = compliance.inverse() * Eigen::Vector3d(32e-6, 20e-6, 24e-6);
+  for (int n = 0; n < 3; ++n)
+    record.close("forces of three meshes", "N", state.force.segment(3 * n, 3).sum(), expected[n], 1e-12, "rounding");
+  BOOST_TEST((law.losses(state) - d * expected).norm() <= 1e-12 * (d * expected).norm());
+  const auto smooth = slopes(law, approach, 1e-9);
+  approach.segment(3, 3) << 12e-6, -3e-6, -20e-6;
+  const auto lifted = slopes(law, approach, 1e-9);
+  record.at_most("force, largest relative difference", "", std::max(smooth.force, lifted.force), 1e-7,
+                 "step of the differences");
+  record.at_most("tangent, largest relative difference", "", std::max(smooth.tangent, lifted.tangent), 1e-6,
+                 "step of the differences");
+  const auto tangent = law.at(approach).tangent;
+  BOOST_TEST((tangent - tangent.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * tangent.cwiseAbs().maxCoeff());
 }
 
 BOOST_AUTO_TEST_CASE(laws_that_give_energy_away_are_refused) {

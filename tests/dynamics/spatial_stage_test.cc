@@ -209,7 +209,7 @@ BOOST_AUTO_TEST_CASE(weight_of_a_floating_sun_over_a_turn) {
   s.weights = {{{Kind::sun}, 180, 0}};
   BOOST_TEST(s.reasons_for_space().empty());
   BOOST_TEST(s.depends_on_carrier_angle());
-  const auto turn = solve_turn(s, turn_of_carrier(s.plane, 12, 1), 2);
+  const auto turn = solve_turn(s, places_over(period_of(s), 12, 1), 2);
   BOOST_TEST(turn.positions.size() == 12u);
   for (const auto& p : turn.positions)
     for (std::size_t n = 0; n < 3; ++n) {
@@ -349,6 +349,71 @@ BOOST_AUTO_TEST_CASE(tilting_planets_by_slices) {
                    1e-4, "slices");
     }
   }
+}
+
+// On faces so narrow that they resist no tilt, cantilevered pins bend under the two mesh forces alone.
+BOOST_AUTO_TEST_CASE(pins_bend_and_tilt) {
+  annulus::test::Verification record("Pins of planets in space", "compliance of a beam under the two mesh forces");
+  auto s = stages::reliability_stage(0);
+  s.sun_face = stages::even_face(3e9, 1e-6);
+  s.ring_face = stages::even_face(4e9, 1e-6);
+  // Shift, tilt and their coupling under a force and a moment.
+  const double shift = 4e-10, tilt = 2e-9, bend = 2e-8, reach = 1e-11;
+  Eigen::Matrix<double, 5, 5> compliance = Eigen::Matrix<double, 5, 5>::Zero();
+  compliance.diagonal() << shift, shift, reach, bend, bend;
+  compliance(0, 4) = compliance(4, 0) = tilt;
+  compliance(1, 3) = compliance(3, 1) = -tilt;
+  s.pin = compliance.inverse();
+  for (int n = 0; n < 3; ++n)
+    s.loads.push_back(
+        {"radial", {Kind::planet, n}, StageFrame::planet, Vector3d::Zero(), {3e4, 0, 0}, Vector3d::Zero()});
+  BOOST_TEST(s.reasons_for_space().size() == 1u);
+  const auto turn = at_once(s);
+  const auto& p = turn.positions[0];
+  const auto& plane = s.plane;
+  const double force = plane.mean_mesh_force();
+  const double radial = 3e4 + force * (std::sin(plane.sun_working_angle) - std::sin(plane.ring_working_angle));
+  const double tangential = force * (std::cos(plane.sun_working_angle) + std::cos(plane.ring_working_angle));
+  for (std::size_t n = 0; n < 3; ++n) {
+    const auto &planet = p.bodies[3 + n], &pin = p.bodies[6 + n];
+    record.close("displacement of planets, radial", "m", planet.displacement.x(), shift * radial, 1e-6,
+                 "width of the faces");
+    record.close("displacement of planets, tangential", "m", planet.displacement.y(), shift * tangential, 1e-6,
+                 "width of the faces");
+    record.close("tilt about the tangential axis", "rad", planet.rotation.y(), tilt * radial, 1e-6,
+                 "width of the faces");
+    record.close("tilt about the radial axis", "rad", planet.rotation.x(), -tilt * tangential, 1e-6,
+                 "width of the faces");
+    BOOST_TEST((planet.displacement - pin.displacement).norm() <= 1e-9 * pin.displacement.norm());
+    BOOST_TEST(std::abs(pin.rotation.z()) <= 1e-15);
+  }
+}
+
+// Two rigid bearings on either side of the face: in the plane they hold the same, and each bears half.
+BOOST_AUTO_TEST_CASE(rigid_bearings_on_either_side) {
+  auto s = stages::reliability_stage(0);
+  s.plane.carrier.support = 1e9;
+  s.weights = {{{Kind::carrier}, 1000, 0}};
+  s.gravity = {0, -10, 0};
+  for (const double place : {-0.3, 0.3})
+    s.bearings.push_back(bearing("b" + std::to_string(place), {Kind::carrier}, {}, place, rigid));
+  BOOST_TEST(s.reasons_for_space().empty());
+  const auto turn = at_once(s);
+  for (std::size_t b : {0u, 1u})
+    BOOST_TEST(turn.positions[0].bearings[b].force.y() == 5000, boost::test_tools::tolerance(1e-9));
+}
+
+// A thrust bearing leaves the radial support of the sun where it is.
+BOOST_AUTO_TEST_CASE(bearings_without_radial_stiffness_leave_the_support) {
+  auto s = stages::reliability_stage(7.5 * units::deg);
+  s.plane.sun.support = 1e10;
+  s.plane.planet_errors.assign(3, {});
+  s.plane.planet_errors[1].position = {100e-6, 0.7};
+  const auto sharing = [](const SpatialStage& stage) { return figures_of(at_once(stage)).sun.sharing; };
+  const double before = sharing(s);
+  BOOST_TEST(before > 1.1);
+  s.bearings = {bearing("thrust", {Kind::sun}, {}, 0, 0, 1e9, 1e9)};
+  BOOST_TEST(sharing(s) == before, boost::test_tools::tolerance(0.02));
 }
 
 BOOST_AUTO_TEST_CASE(what_nothing_holds_is_named) {

@@ -39,7 +39,7 @@ struct GravityInput {
 };
 
 struct StaticsInput {
-  int places = 0;
+  std::optional<int> places;
   std::optional<int> phases;
 };
 

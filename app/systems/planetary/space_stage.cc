@@ -119,6 +119,7 @@ WholeMesh whole_mesh(const dynamics::MeshExcitation& excitation, double phase, d
     return linear(wave->mean * (1 + wave->ripple * ((high ? 1 : 0) - wave->duty)));
   }
   const auto& table = std::get<dynamics::TableStiffness>(excitation);
+  phase -= table.phase_shift;
   // Back flanks pass their contact the other way.
   const double at = back ? table.back_flank_phase.value_or(2 * phase) - phase : phase;
   if (!table.surface) return linear(table.secant(at));
@@ -139,22 +140,17 @@ double unloaded_error(const dynamics::MeshExcitation& excitation, double phase) 
   return table ? table->unloaded_te(phase - table->phase_shift) : 0.0;
 }
 
-/// Lead modifications and misalignment, m, at a place on the common face from its middle. What flanks have in common
-/// with those of the tables is in the tables' unloaded transmission error: of those the least gap is taken off.
-std::vector<double> gaps_along(const geometry::GearPair& pair, double misalignment, const std::vector<double>& stations,
-                               bool in_table) {
+/// Lead modifications and misalignment, m, at places on the common face from its middle.
+std::vector<double> gaps_along(const geometry::GearPair& pair, double misalignment,
+                               const std::vector<double>& stations) {
   const auto face = pair.common_face();
   const geometry::ToothProfile pinion(pair.pinion()), wheel(pair.wheel());
   std::vector<double> gaps;
-  double least = std::numeric_limits<double>::infinity();
   for (const double z : stations) {
     const double from_low = z + face.width / 2;
     gaps.push_back(pinion.lead_modification(from_low + face.pinion.below) +
                    wheel.lead_modification(from_low + face.wheel.below) + misalignment * z / face.width);
-    least = std::min(least, gaps.back());
   }
-  if (in_table)
-    for (double& gap : gaps) gap -= least;
   return gaps;
 }
 
@@ -167,7 +163,7 @@ StageFace place_of_face(const Scene& scene, const geometry::GearPair& pair, cons
   face.middle = p.axial_offset - p.face_width / 2 + common.pinion.below + common.width / 2;
   constexpr double rounding = 1e-9;  // of widths and offsets in millimetres
   if (std::abs(face.middle) < rounding * common.width) face.middle = 0;
-  const auto gaps = gaps_along(pair, misalignment, {-common.width / 2, common.width / 2}, false);
+  const auto gaps = gaps_along(pair, misalignment, {-common.width / 2, common.width / 2});
   face.symmetric = std::abs(gaps[0] - gaps[1]) <= rounding * units::mm;
   face.backlash = backlash_of(scene, input, pair);
   return face;
@@ -186,7 +182,9 @@ void set_law(StageFace& face, const geometry::GearPair& pair, const MeshInput& i
              const std::shared_ptr<const fem::SolidFace>& solid, double mesh_force) {
   const double c = std::cos(pair.pinion().base_helix_angle());
   const auto stations = stations_of(pair, stretches);
-  const auto gaps = gaps_along(pair, misalignment, stations, input.stiffness == StiffnessShape::computed);
+  // A computed table has its modifications and misalignment in its stiffness.
+  const bool in_table = input.stiffness == StiffnessShape::computed;
+  const auto gaps = in_table ? std::vector<double>(stations.size(), 0.0) : gaps_along(pair, misalignment, stations);
   face.law = [=](double phase, StageFace::Flank flank) -> std::shared_ptr<const FaceLaw> {
     const bool back = flank == StageFace::Flank::back;
     if (solid && !back) return solid->at(phase, mesh_force / c);
@@ -207,17 +205,16 @@ dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geo
   dynamics::SpatialStage stage;
   stage.plane = stage_kinematics(scene, geometry, ring);
   auto& plane = stage.plane;
-  const auto supports = supports_with_pins(scene);
+  const auto& supports = scene.supports;
+  stage.pin = pin_stiffness_in_space(scene);
   plane.sun.support = supports.sun;
   plane.ring.support = supports.ring;
   plane.carrier.support = supports.carrier;
   plane.ring.torsional_support = torsional_support(scene, geometry::StageMember::ring);
-  const bool play = supports.planet_clearance > 0;
   for (std::size_t n = 0; n < static_cast<std::size_t>(scene.stage.planets); ++n)
     plane.planet_bearings.push_back({.radial = supports.planet_bearing(&SupportInput::planet_radial, n),
                                      .tangential = supports.planet_bearing(&SupportInput::planet_tangential, n),
-                                     .play = supports.planet_clearance / 2,
-                                     .pin = play ? pin_stiffness(scene) : rigid});
+                                     .play = supports.planet_clearance / 2});
   const auto& planet = set.planet();
   stage.base_helix_angle = planet.helix_angle() == 0 ? 0.0 : planet.base_helix_angle();
   stage.planet_working_radius_sun = planet.base_radius() / std::cos(set.sun_mesh().working_pressure_angle());
@@ -290,16 +287,38 @@ std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const 
                                   "than the other",
                                   fmt::join(held, ", ")),
                       name});
-    const bool spread = (scene.sun_planet.stiffness == StiffnessShape::computed && !faces.sun) ||
-                        (scene.ring_planet.stiffness == StiffnessShape::computed && !faces.ring);
-    if (spread)
-      list.push_back({"even_faces", Severity::warning,
-                      "a computed mesh stiffness is spread evenly over the face: every part of it gives way by itself. "
-                      "Real teeth support the loaded part from beside it, so that K_Hβ is overestimated where the load "
-                      "is uneven, and its error bar does not contain that. Solid models of rings that stand on no "
-                      "single supports, with planets on hubs, need no such assumption",
-                      name});
   }
+  for (const auto& [key, body, given] : {std::tuple{"supports.sun_N_per_m", Body::sun, scene.supports.sun},
+                                         {"supports.ring_N_per_m", Body::ring, scene.supports.ring},
+                                         {"supports.carrier_N_per_m", Body::carrier, scene.supports.carrier},
+                                         {"supports.planet_N_per_m", Body::planet, scene.supports.planet}}) {
+    const auto* input = scene.find(key);
+    const bool written = input != nullptr && input->origin == Origin::scene && given > 0 && given != rigid;
+    if (written && stage.has_radial_bearings({body}))
+      list.push_back(
+          {"support_replaced", Severity::warning,
+           fmt::format("{} is left out: the {} is held by its [[bearing]] tables alone", key,
+                       body == Body::planet ? std::string("planet") : dynamics::SpatialStage::name_of({body})),
+           name});
+  }
+  if (scene.supports.planet_clearance > 0 && stage.has_radial_bearings({Body::planet}))
+    list.push_back({"support_replaced", Severity::warning,
+                    "supports.planet_clearance_um is left out: the planets are held by their [[bearing]] tables alone, "
+                    "which have clearance_um",
+                    name});
+  // In a plane stage a plane model has nothing along its face.
+  const auto spread = [&](const MeshInput& input, const std::shared_ptr<const fem::SolidFace>& face) {
+    return input.stiffness == StiffnessShape::computed && !face &&
+           (!stage.reasons_for_space().empty() || scene.fidelity == Fidelity::solid);
+  };
+  if (spread(scene.sun_planet, faces.sun) || spread(scene.ring_planet, faces.ring))
+    list.push_back({"even_faces", Severity::warning,
+                    "a computed mesh stiffness is spread evenly over the face: every part of it gives way by itself. "
+                    "Real teeth support the loaded part from beside it, so that K_Hβ is overestimated where bodies "
+                    "tilt. Lead modifications and misalignment act in the stiffness alone, not in the load along the "
+                    "face. The error bar of K_Hβ contains neither. Solid models of rings that stand on no single "
+                    "supports, with planets on hubs, need no such assumption",
+                    name});
   return list;
 }
 

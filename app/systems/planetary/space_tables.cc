@@ -189,13 +189,22 @@ Table statics_table() {
   statics.optional();
   statics
       .key("carrier_positions", &StaticsInput::places,
-           "Positions of the carrier over a turn against the ring, each at a whole number of mesh cycles.")
-      .fallback(32, "more than ten per planet of most stages")
-      .from(1, 100000);
+           "Positions of the carrier over the mesh cycles after which the forces repeat, at most one in each: a turn "
+           "where "
+           "weight and loads of the housing act, otherwise the common period of the errors.")
+      .from(1, 100000)
+      .absent("32; with eccentric gears or pitch deviations 768, or 96 of solid gears");
   statics.key("mesh_phases", &StaticsInput::phases, "Positions in the mesh cycle that begins at each of them.")
       .from(1, 1000)
       .absent("one where no stiffness changes in the mesh cycle, 4 of solid gears, otherwise 8");
   return statics.done();
+}
+
+/// Has a force a torque about the axis, beyond rounding?
+bool twists(const std::vector<double>& point, const std::vector<double>& force) {
+  constexpr double rounding = 1e-9;
+  return std::abs(point[0] * force[1] - point[1] * force[0]) >
+         rounding * std::hypot(point[0], point[1]) * std::hypot(force[0], force[1]);
 }
 
 class SpaceChecks : KeyChecks {
@@ -279,8 +288,8 @@ class SpaceChecks : KeyChecks {
       problem("load.moment_Nm", i,
               "has a part about z: that is a torque, which stage.sun_torque_Nm, carrier_torque_Nm, ring_torque_Nm or "
               "power_kW gives; use 0");
-    if (l.force.size() == 3 && l.point.size() == 3 && l.body != Body::carrier && usable("load.force_N", i) &&
-        usable("load.at_mm", i) && l.point[0] * l.force[1] != l.point[1] * l.force[0] && l.body != Body::planet)
+    if (l.force.size() == 3 && l.point.size() == 3 && l.body != Body::planet && usable("load.force_N", i) &&
+        usable("load.at_mm", i) && twists(l.point, l.force))
       problem("load.at_mm", i,
               "gives the force a torque about the axis, which [stage] states; use a point on the line of the force "
               "through the axis");

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
+
 #include "app/scene/scene.h"
 #include "core/radial_bearing.h"
 #include "geometry/planetary.h"
@@ -13,6 +16,10 @@ namespace annulus::app {
 
 /// N/m, of the pin of each planet: a beam of the material of [material].
 [[nodiscard]] double pin_stiffness(const Scene& scene);
+/// The same in space, at the middle of the planet and in its frame: forces along x, y, z and moments about x, y over
+/// displacements and tilts. The wall of cantilevers and flexpins stands on the side of -z. Nothing for pins that do not
+/// bend.
+[[nodiscard]] std::optional<Eigen::Matrix<double, 5, 5>> pin_stiffness_in_space(const Scene& scene);
 /// rad, by which a cantilevered pin tilts under a force (N) on the planet; 0 of others.
 [[nodiscard]] double pin_tilt(const Scene& scene, double force);
 

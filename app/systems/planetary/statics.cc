@@ -14,7 +14,7 @@
 #include "app/systems/planetary/space_input.h"
 #include "app/systems/planetary/space_stage.h"
 #include "core/errors.h"
-#include "core/log.h"
+#include "core/units.h"
 
 namespace annulus::app {
 
@@ -28,6 +28,7 @@ using dynamics::StaticTurn;
 struct OtherTurn {
   StaticTurn turn;
   double weight = 1;
+  double at_kinks = 1;  ///< weight for results that change suddenly, as the largest load along a face
 };
 
 /// One of its places, or phases, in two.
@@ -48,10 +49,13 @@ StaticTurn every_second(const StaticTurn& turn, bool places, std::size_t from) {
 }
 
 /// A value of a turn, with its differences to others added up.
+enum class Course { smooth, with_kinks };
 Figure with_error(const StaticTurn& turn, const std::vector<OtherTurn>& others,
-                  const std::function<double(const StaticTurn&)>& value) {
+                  const std::function<double(const StaticTurn&)>& value, Course course = Course::smooth) {
   Figure figure{value(turn), 0};
-  for (const auto& other : others) figure.error += other.weight * std::abs(value(other.turn) - figure.value);
+  for (const auto& other : others)
+    figure.error +=
+        (course == Course::smooth ? other.weight : other.at_kinks) * std::abs(value(other.turn) - figure.value);
   return figure;
 }
 
@@ -69,7 +73,9 @@ FigureSet all_figures(const StaticTurn& turn, const std::vector<OtherTurn>& othe
                                       {"load_sharing_instantaneous", &StaticFigures::Mesh::sharing_instantaneous},
                                       {"face_load_factor", &StaticFigures::Mesh::line_load_ratio}})
       set.set(fmt::format("{}_static_{}", name, key),
-              with_error(turn, others, [&](const StaticTurn& t) { return dynamics::figures_of(t).*mesh.*member; }));
+              with_error(
+                  turn, others, [&](const StaticTurn& t) { return dynamics::figures_of(t).*mesh.*member; },
+                  member == &StaticFigures::Mesh::line_load_ratio ? Course::with_kinks : Course::smooth));
   return set;
 }
 
@@ -112,14 +118,17 @@ void mirror(StaticTurn& turn) {
   }
 }
 
-/// Places and phases that show something.
+/// Places and phases that show something. One period of the housing is smooth; several at once, as of eccentric gears,
+/// need more places to meet their worst coincidence.
 StaticSchedule schedule_of(const Scene& scene, const dynamics::SpatialStage& stage, const StageFaces& faces) {
   const auto& wanted = scene.own<SpaceInput>().statics;
   const bool in_cycle = varies_in_cycle(scene.sun_planet) || varies_in_cycle(scene.ring_planet);
-  const bool over_turn = stage.depends_on_carrier_angle() || stage.plane.error_period() > 1;
-  const int usual_phases = faces.sun || faces.ring ? 4 : 8;
-  return dynamics::turn_of_carrier(stage.plane, over_turn ? wanted.places : 1,
-                                   wanted.phases.value_or(in_cycle ? usual_phases : 1));
+  const bool solid = faces.sun || faces.ring;
+  const int usual_phases = solid ? 4 : 8, period = dynamics::period_of(stage);
+  const bool errors = stage.plane.error_period() > 1;
+  const int usual_places = !errors ? 32 : solid ? 96 : 768;
+  return dynamics::places_over(period, wanted.places.value_or(usual_places),
+                               wanted.phases.value_or(in_cycle ? usual_phases : 1));
 }
 
 void check_sun(const Scene& scene) {
@@ -141,7 +150,8 @@ double stiffness_error(const MeshResult& mesh) {
   return mesh.model.computed() && std::isfinite(error) ? error : 0.0;
 }
 
-void warn_of_back_flanks(std::vector<Warning>& list, const StaticTurn& turn, const std::string& ring) {
+void warn_of_back_flanks(std::vector<Warning>& list, const StaticTurn& turn, const dynamics::SpatialStage& stage,
+                         const std::string& ring) {
   int count = 0;
   for (const auto& p : turn.positions) {
     const auto carries = [](const auto& m) { return m.back_flanks; };
@@ -149,11 +159,14 @@ void warn_of_back_flanks(std::vector<Warning>& list, const StaticTurn& turn, con
              std::any_of(p.ring_meshes.begin(), p.ring_meshes.end(), carries);
   }
   if (count > 0)
-    list.push_back({"back_flanks", Severity::warning,
-                    fmt::format("back flanks carry load in {} of {} positions; they have the stiffness of the driving "
-                                "flanks and no lead modifications",
-                                count, turn.positions.size()),
-                    ring});
+    list.push_back(
+        {"back_flanks", Severity::warning,
+         fmt::format(
+             "back flanks carry load in {} of {} positions, behind a normal backlash of {:.3g} µm in the sun mesh "
+             "and {:.3g} µm in the ring mesh (half_backlash_um of the mesh or of [dynamics], otherwise that of "
+             "the profile shifts). They have the mean stiffness of the driving flanks and no lead modifications",
+             count, turn.positions.size(), *stage.sun_face.backlash / units::um, *stage.ring_face.backlash / units::um),
+         ring});
 }
 
 /// Meshes whose load somewhere on the face is beyond their table, which is continued there.
@@ -184,24 +197,19 @@ Scene with_solids_in_space(const Scene& scene, const GearGeometry& geometry) {
   return chosen;
 }
 
-/// Solid gears along a face at the level of their table, and one level coarser; null without.
-struct FaceLevels {
-  std::shared_ptr<const fem::SolidFace> fine, coarse;
-};
-
 struct RingProblem {
   const Scene& scene;
   const GearGeometry& geometry;
   std::size_t ring;
   const MeshResult &sun_mesh, &ring_mesh;
-  const FaceLevels &sun_face, &ring_face;
+  const std::shared_ptr<const fem::SolidFace>&sun_face, &ring_face;
 };
 
 RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
   const auto make = [&](const StageFaces& faces) {
     return make_spatial_stage(of.scene, of.geometry, of.ring, of.sun_mesh, of.ring_mesh, faces);
   };
-  const StageFaces faces{.sun = of.sun_face.fine, .ring = of.ring_face.fine};
+  const StageFaces faces{.sun = of.sun_face, .ring = of.ring_face};
   const auto stage = make(faces);
   const auto schedule = schedule_of(of.scene, stage, faces);
   const auto solved = [&](const dynamics::SpatialStage& s) {
@@ -211,16 +219,18 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
   result.ring = of.scene.rings[of.ring].name;
   result.turn = solved(stage);
   std::vector<OtherTurn> others;
-  // What lies between the positions falls with the square of their distance: half of them leave four times as much. The
-  // other half has the largest value where one does not.
+  // What lies between the positions of a smooth course falls with the square of their distance: half of them leave four
+  // times as much. The other half has the largest value where one does not. Several periods at once are met by chance.
   constexpr double of_half = 1.0 / 3;
+  const double of_places = stage.plane.error_period() > 1 ? 1.0 : of_half;
   for (const std::size_t from : {0u, 1u}) {
-    if (schedule.cycles.size() > 1) others.push_back({every_second(result.turn, true, from), of_half});
+    if (schedule.cycles.size() > 1) others.push_back({every_second(result.turn, true, from), of_places});
     if (schedule.phases > 1) others.push_back({every_second(result.turn, false, from), of_half});
   }
   // The elements leave no more than what a level changes.
   if (faces.sun || faces.ring)
-    others.push_back({solved(make({.sun = of.sun_face.coarse, .ring = of.ring_face.coarse}))});
+    others.push_back(
+        {solved(make({.sun = solid_face(of.sun_mesh, options, 1), .ring = solid_face(of.ring_mesh, options, 1)}))});
   const auto spread = [&](const std::shared_ptr<const fem::SolidFace>& face) { return !face; };
   if ((spread(faces.sun) && result.turn.sun_stations.size() > 2) ||
       (spread(faces.ring) && result.turn.ring_stations.size() > 2)) {
@@ -245,10 +255,11 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
       return largest(t, [&](const StaticPosition& p) { return p.bodies.at(b).rotation.head<2>().norm(); });
     }));
   result.reasons = stage.reasons_for_space();
+  result.period = dynamics::period_of(stage);
   result.mean_mesh_force = stage.plane.mean_mesh_force();
   result.worst_residual = largest(result.turn, [](const StaticPosition& p) { return p.residual_relative; });
   result.warnings = space_warnings(of.scene, of.ring, stage, faces);
-  warn_of_back_flanks(result.warnings, result.turn, result.ring);
+  warn_of_back_flanks(result.warnings, result.turn, stage, result.ring);
   const double normal_factor = std::cos(stage.base_helix_angle);
   if (!faces.sun) warn_of_loads_beyond(result.warnings, result.turn, of.sun_mesh, true, result.ring, normal_factor);
   if (!faces.ring) warn_of_loads_beyond(result.warnings, result.turn, of.ring_mesh, false, result.ring, normal_factor);
@@ -262,15 +273,16 @@ StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, con
   check_sun(scene);
   RunOptions options = run_options;
   options.with_dynamics = false;
+  options.out = run_options.out / "statics";  // beside the tables of a run, which may have another model
   const Scene chosen = with_solids_in_space(scene, geometry);
   std::vector<MeshResult> tables;
-  std::vector<FaceLevels> faces;
+  std::vector<std::shared_ptr<const fem::SolidFace>> faces;
   for (const auto& model : mesh_models(chosen, geometry)) {
     auto& mesh = tables.emplace_back(mesh_stiffness(chosen, geometry, model, options));
     if (may_be_coupled_at_rest(chosen, model))
-      mesh.coupling = std::make_shared<SolvedCoupling>(solve_coupling(
-          chosen, geometry, model, 1 / mesh.mean_stiffness().value, options, options.out / model.ring / "statics"));
-    faces.push_back({solid_face(mesh, options), solid_face(mesh, options, 1)});
+      mesh.coupling = std::make_shared<SolvedCoupling>(
+          solve_coupling(chosen, geometry, model, 1 / mesh.mean_stiffness().value, options, options.out / model.ring));
+    faces.push_back(solid_face(mesh, options));
   }
   StageStatics statics{scene, {}};
   for (std::size_t ring = 0; ring < scene.rings.size(); ++ring) {
@@ -295,7 +307,7 @@ const std::vector<FigureSpec>& static_figures() {
       sharing.symbol = "K_γ";
       sharing.definition =
           "Mesh force of a planet, averaged over a mesh cycle, over the mean of all planets: the largest over the "
-          "planets and over a turn of the carrier against the ring, without inertia (annulus statics).";
+          "planets and over all positions of the carrier, without inertia (annulus statics).";
       sharing.term = "K_γ";
       sharing.better = Better::smaller;
       sharing.quantity = "load_sharing";
@@ -303,16 +315,17 @@ const std::vector<FigureSpec>& static_figures() {
       sharing.key += "_instantaneous";
       sharing.title = fmt::format("Load sharing of the {} in equilibrium, in any position", words);
       sharing.definition =
-          "Mesh force of a planet over the mean of all planets: the largest over the planets and all positions of a "
-          "turn of the carrier against the ring, without inertia (annulus statics).";
+          "Mesh force of a planet over the mean of all planets: the largest over the planets and all "
+          "positions, without inertia (annulus statics).";
       specs.push_back(sharing);
       FigureSpec face;
       face.key = fmt::format("{}_static_face_load_factor", mesh);
       face.title = fmt::format("Face load factor of the {} in equilibrium over a turn", words);
       face.symbol = "K_Hβ";
       face.definition = fmt::format(
-          "Largest force per face width over the mean one of the mesh, of planets and {} in all positions of a turn of "
-          "the carrier against the ring, without inertia (annulus statics).",
+          "Largest force per face width over the mean one of the mesh, of planets and {} in all positions of an "
+          "equilibrium without inertia (annulus statics). Meshes that carry less than a twentieth of the mean do not "
+          "count.",
           gear);
       face.better = Better::smaller;
       specs.push_back(face);

@@ -29,6 +29,7 @@ struct RingStatics {
   std::vector<BearingStatics> bearings;
   std::vector<Figure> tilt{};        ///< rad, largest of every body
   std::vector<std::string> reasons;  ///< for degrees of freedom in space; empty: plane
+  int period = 1;                    ///< mesh cycles after which the forces repeat, but for their change within a cycle
   double mean_mesh_force = 0;        ///< N, in the transverse section
   double worst_residual = 0;         ///< relative
   std::vector<Warning> warnings;

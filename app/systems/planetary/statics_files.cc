@@ -96,7 +96,11 @@ Csv bodies_csv(const RingStatics& ring) {
 /// The position in which a mesh has its most uneven load.
 const StaticPosition& worst_position(const RingStatics& ring, const MeshKind& kind, std::size_t n) {
   const auto less = [&](const StaticPosition& a, const StaticPosition& b) {
-    return (a.*kind.meshes)[n].line_load_ratio < (b.*kind.meshes)[n].line_load_ratio;
+    const auto ratio = [&](const StaticPosition& p) {
+      const auto& mesh = (p.*kind.meshes)[n];
+      return mesh.force >= dynamics::StaticFigures::light_mesh * ring.mean_mesh_force ? mesh.line_load_ratio : 0.0;
+    };
+    return ratio(a) < ratio(b);
   };
   return *std::max_element(ring.turn.positions.begin(), ring.turn.positions.end(), less);
 }
@@ -121,6 +125,23 @@ Csv face_csv(const RingStatics& ring, const MeshKind& kind) {
 
 Json figure_json(const Figure& figure) { return {{"value", figure.value}, {"error", figure.error}}; }
 
+/// Null where the forces never repeat.
+Json period_json(const RingStatics& ring) {
+  if (ring.period >= dynamics::PlanetaryStage::never_repeats) return nullptr;
+  return ring.period;
+}
+
+/// "32 positions of the carrier over 99 mesh cycles, 4 phases each".
+std::string positions_text(const RingStatics& ring) {
+  const auto& schedule = ring.turn.schedule;
+  return fmt::format("{} position{} of the carrier over {}, {} phase{} each", schedule.cycles.size(),
+                     schedule.cycles.size() == 1 ? "" : "s",
+                     ring.period >= dynamics::PlanetaryStage::never_repeats
+                         ? std::string("mesh cycles that never repeat")
+                         : fmt::format("{} mesh cycle{}", ring.period, ring.period == 1 ? "" : "s"),
+                     schedule.phases, schedule.phases == 1 ? "" : "s");
+}
+
 Json ring_json(const RingStatics& ring) {
   Json json;
   for (const auto& entry : ring.figures.entries()) json["results"][entry.key] = figure_json(entry.figure);
@@ -128,6 +149,8 @@ Json ring_json(const RingStatics& ring) {
   json["degrees_of_freedom"] = ring.reasons.empty() ? "plane" : "space";
   json["reasons_for_space"] = ring.reasons;
   json["positions"] = ring.turn.positions.size();
+  json["carrier_positions"] = ring.turn.schedule.cycles.size();
+  json["period_mesh_cycles"] = period_json(ring);
   json["residual_relative"] = ring.worst_residual;
   for (const auto& b : ring.bearings)
     json["bearings"].push_back({{"name", b.name},
@@ -177,7 +200,7 @@ Series over_turn(const RingStatics& ring, const std::string& label, std::size_t 
   return series;
 }
 
-constexpr const char* turn_axis = "mesh cycles over a turn of the carrier against the ring";
+constexpr const char* turn_axis = "mesh cycles";
 
 Blocks mesh_plots(const RingStatics& ring) {
   Blocks blocks;
@@ -231,8 +254,8 @@ Blocks model_blocks(const RingStatics& ring) {
     for (const auto& reason : ring.reasons) list.items.emplace_back(reason);
     blocks += list;
   }
-  blocks += paragraph(fmt::format("{} positions; the largest force that is left over is {} of the largest force.",
-                                  ring.turn.positions.size(), small_text(ring.worst_residual)));
+  blocks += paragraph(fmt::format("{}; the largest force that is left over is {} of the largest force.",
+                                  positions_text(ring), small_text(ring.worst_residual)));
   return blocks;
 }
 
@@ -291,7 +314,7 @@ std::string statics_text(const StageStatics& statics) {
 
 void write_statics(const StageStatics& statics, const RunOptions& options) {
   for (const auto& ring : statics.rings) {
-    const auto folder = options.out / ring.ring / "statics";
+    const auto folder = options.out / "statics" / ring.ring;
     std::filesystem::create_directories(folder);
     meshes_csv(ring).write(folder / "mesh_forces.csv");
     bearings_csv(ring).write(folder / "bearings.csv");

@@ -29,7 +29,7 @@ const CentralBody& central(const SpatialStage& stage, Kind kind) {
 
 /// On the axis of a body, at the middle of the stage.
 Vector3d centre_of(const SpatialStage& stage, const StageBody& body) {
-  if (body.kind != Kind::planet) return Vector3d::Zero();
+  if (body.kind != Kind::planet && body.kind != Kind::pin) return Vector3d::Zero();
   return stage.plane.carrier.radius * radial(stage.plane.planet_angles[static_cast<std::size_t>(body.planet)]);
 }
 
@@ -46,6 +46,13 @@ bool keeps_plane(const Eigen::Matrix<double, 5, 5>& k) {
   return true;
 }
 
+/// Do two measures agree but for motions out of the plane?
+bool same_in_plane(const Mechanism::Measure& a, const Mechanism::Measure& b) {
+  for (Eigen::Index i = 0; i < a.size(); ++i)
+    if ((i % 6 < 2 || i % 6 == 5) && a[i] != b[i]) return false;
+  return true;
+}
+
 class Assembly {
  public:
   Assembly(const SpatialStage& stage, double t)
@@ -59,11 +66,14 @@ class Assembly {
       mechanism().add_body({SpatialStage::name_of({kind}), Vector3d::Zero(), space_});
     for (int n = 0; n < stage_.planets(); ++n)
       mechanism().add_body({SpatialStage::name_of({Kind::planet, n}), centre_of(stage_, {Kind::planet, n}), space_});
+    if (stage_.pin)
+      for (int n = 0; n < stage_.planets(); ++n)
+        mechanism().add_body({SpatialStage::name_of({Kind::pin, n}), centre_of(stage_, {Kind::pin, n}), space_});
     for (const auto& bearing : stage_.bearings) add_bearing(bearing);
-    for (const auto kind : central_bodies)
-      if (!stage_.has_bearings({kind})) add_support({kind});
-    for (int n = 0; n < stage_.planets(); ++n)
-      if (!stage_.has_bearings({Kind::planet, n})) add_support({Kind::planet, n});
+    for (const auto kind : central_bodies) add_support({kind});
+    for (int n = 0; n < stage_.planets(); ++n) add_support({Kind::planet, n});
+    if (stage_.pin)
+      for (int n = 0; n < stage_.planets(); ++n) add_pin(n);
     add_rotations();
     for (int n = 0; n < stage_.planets(); ++n) result_.meshes.push_back(add_mesh(true, n));
     for (int n = 0; n < stage_.planets(); ++n) result_.meshes.push_back(add_mesh(false, n));
@@ -76,11 +86,17 @@ class Assembly {
   Mechanism& mechanism() { return result_.mechanism; }
   [[nodiscard]] int number(const StageBody& body) const { return body_number(stage_, body); }
 
+  /// What a bearing stands on: those of planets on pins, where there are pins.
+  [[nodiscard]] int seat_of(const StageBearing& b) const {
+    const bool on_pin = stage_.pin && b.body.kind == Kind::planet && b.on.kind == Kind::carrier;
+    return number(on_pin ? StageBody{Kind::pin, b.body.planet} : b.on);
+  }
+
   /// x, y, z, about x, about y of a bearing.
   Mechanism::Measure measure(const StageBearing& b, const Eigen::Matrix3d& axes, int coordinate) {
     const Vector3d point = centre_of(stage_, b.body) + b.place * Vector3d::UnitZ();
-    return coordinate < 3 ? mechanism().displacement(number(b.body), number(b.on), point, axes.col(coordinate))
-                          : mechanism().rotation(number(b.body), number(b.on), axes.col(coordinate - 3));
+    return coordinate < 3 ? mechanism().displacement(number(b.body), seat_of(b), point, axes.col(coordinate))
+                          : mechanism().rotation(number(b.body), seat_of(b), axes.col(coordinate - 3));
   }
 
   /// Element on some coordinates of a bearing.
@@ -100,9 +116,20 @@ class Assembly {
   void hold(StageMechanism::Bearing& made, const StageBearing& b, int coordinate) {
     constexpr const char* words[] = {"the x position", "the y position", "the axial position", "the tilt about x",
                                      "the tilt about y"};
-    made.held.at(static_cast<std::size_t>(coordinate)) = mechanism().hold(
-        fmt::format("{} of the {} (bearing '{}')", words[coordinate], SpatialStage::name_of(b.body), b.name),
-        measure(b, made.axes, coordinate));
+    const auto row = measure(b, made.axes, coordinate);
+    int& held = made.held.at(static_cast<std::size_t>(coordinate));
+    // In the plane two bearings on either side of the face hold the same, and share it.
+    if (!space_)
+      for (std::size_t h = 0; h < holds_.size(); ++h)
+        if (same_in_plane(holds_[h], row)) {
+          held = static_cast<int>(h);
+          ++result_.shared[h];
+          return;
+        }
+    holds_.push_back(row);
+    result_.shared.push_back(1);
+    held = mechanism().hold(
+        fmt::format("{} of the {} (bearing '{}')", words[coordinate], SpatialStage::name_of(b.body), b.name), row);
   }
 
   void add_scalar(StageMechanism::Bearing& made, const StageBearing& b, int coordinate, double stiffness, double play) {
@@ -141,9 +168,10 @@ class Assembly {
 
   /// The support of the plane, in the middle of the face.
   void add_support(const StageBody& body) {
+    if (stage_.has_radial_bearings(body)) return;
     StageBearing b;
     b.body = body;
-    b.axial = b.tilt = rigid;
+    if (!stage_.has_bearings(body)) b.axial = b.tilt = rigid;
     b.name = SpatialStage::name_of(body) + (body.kind == Kind::planet ? " bearing" : " support");
     if (body.kind == Kind::planet) {
       const auto bearing = stage_.plane.planet_bearing(body.planet);
@@ -157,6 +185,19 @@ class Assembly {
       b.x = b.y = central(stage_, body.kind).support;
     }
     add_bearing(b);
+  }
+
+  /// A pin on the carrier; it does not turn in it.
+  void add_pin(int n) {
+    StageBearing b;
+    b.body = {Kind::pin, n};
+    b.on = {Kind::carrier};
+    b.frame = StageFrame::planet;
+    b.name = SpatialStage::name_of(b.body);
+    b.matrix = stage_.pin;
+    add_bearing(b);
+    mechanism().hold(fmt::format("the rotation of {}", b.name),
+                     mechanism().rotation(number(b.body), number(b.on), Vector3d::UnitZ()));
   }
 
   /// The angle of the carrier is that of the position; what the ring's torsional support gives way is elastic.
@@ -296,7 +337,8 @@ class Assembly {
   double time_;
   bool space_;
   StageMechanism result_;
-  std::vector<Flank> coupled_;  // driving flanks of ring meshes
+  std::vector<Flank> coupled_;             // driving flanks of ring meshes
+  std::vector<Mechanism::Measure> holds_;  // of bearings: the first ones of the mechanism
 };
 
 }  // namespace
@@ -304,11 +346,17 @@ class Assembly {
 std::string SpatialStage::name_of(const StageBody& body) {
   constexpr const char* names[] = {"housing", "sun", "ring", "carrier"};
   if (body.kind == Kind::planet) return fmt::format("planet{}", body.planet + 1);
+  if (body.kind == Kind::pin) return fmt::format("pin{}", body.planet + 1);
   return names[static_cast<std::size_t>(body.kind)];
 }
 
 bool SpatialStage::has_bearings(const StageBody& body) const {
   return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
+}
+
+bool SpatialStage::has_radial_bearings(const StageBody& body) const {
+  return std::any_of(bearings.begin(), bearings.end(),
+                     [&](const auto& b) { return b.body == body && (b.matrix || b.x > 0 || b.y > 0); });
 }
 
 std::vector<std::string> SpatialStage::reasons_for_space() const {
@@ -330,6 +378,7 @@ std::vector<std::string> SpatialStage::reasons_for_space() const {
     for (const auto& weight : weights)
       if (weight.place != 0)
         reasons.push_back(fmt::format("the weight of the {} acts beside the middle of the face", name_of(weight.body)));
+  if (pin && !keeps_plane(*pin)) reasons.emplace_back("the pins tilt as they bend");
   for (const auto& b : bearings) {
     const bool paired =
         b.matrix ? b.place == 0 && keeps_plane(*b.matrix)
@@ -343,6 +392,7 @@ std::vector<std::string> SpatialStage::reasons_for_space() const {
 }
 
 bool SpatialStage::depends_on_carrier_angle() const {
+  if (plane.carrier_speed == 0) return false;
   for (const auto& load : loads)
     if (load.frame == StageFrame::housing &&
         (load.force.head<2>().any() || load.moment.head<2>().any() || load.point.head<2>().any()))
@@ -356,7 +406,7 @@ bool SpatialStage::depends_on_carrier_angle() const {
   return fixed(plane.sun) || fixed(plane.ring) || fixed(plane.carrier);
 }
 
-int body_number(const SpatialStage&, const StageBody& body) {
+int body_number(const SpatialStage& stage, const StageBody& body) {
   switch (body.kind) {
     case Kind::housing:
       return Mechanism::ground;
@@ -367,9 +417,11 @@ int body_number(const SpatialStage&, const StageBody& body) {
     case Kind::carrier:
       return 2;
     case Kind::planet:
+      return 3 + body.planet;
+    case Kind::pin:
       break;
   }
-  return 3 + body.planet;
+  return 3 + stage.planets() + body.planet;
 }
 
 Eigen::Matrix3d frame_axes(const SpatialStage& stage, StageFrame frame, const StageBody& body, double t) {

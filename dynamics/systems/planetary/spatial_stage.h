@@ -14,9 +14,9 @@
 
 namespace annulus::dynamics {
 
-/// A body of a stage; planets by number.
+/// A body of a stage; planets and their pins by number.
 struct StageBody {
-  enum class Kind { housing, sun, ring, carrier, planet };
+  enum class Kind { housing, sun, ring, carrier, planet, pin };
   Kind kind = Kind::housing;
   int planet = 0;
   bool operator==(const StageBody&) const = default;
@@ -87,13 +87,17 @@ struct StageFace {
 /// With `plane.ring_coupling` the driving flanks of the ring meshes act on each other through the ring (CoupledFaces);
 /// its modes have no part in an equilibrium.
 ///
-/// A body that `bearings` name is held by these alone. Others have the radial supports of `plane` in the middle of the
-/// face, and neither move along the axis nor tilt.
+/// A body that `bearings` name is held by these; where none of them holds it radially, by the radial support of `plane`
+/// in the middle of the face as well. Others have that support, and neither move along the axis nor tilt: planets
+/// against their pin.
 struct SpatialStage {
   PlanetaryStage plane;
   double base_helix_angle = 0;                                           ///< rad, signed: > 0 for right-handed planets
   double planet_working_radius_sun = 0, planet_working_radius_ring = 0;  ///< m, of the pitch points from planet axes
   StageFace sun_face, ring_face;
+  /// Stiffness of each pin on the carrier, at the planet's middle and in its frame (StageBearing::matrix); bearings of
+  /// planets then stand on the pins. Absent: pins are part of the carrier.
+  std::optional<Eigen::Matrix<double, 5, 5>> pin{};
   std::vector<StageBearing> bearings;
   std::vector<StageLoad> loads;
   std::vector<StageWeight> weights;
@@ -103,6 +107,7 @@ struct SpatialStage {
   /// For messages and files: "sun", "planet2".
   [[nodiscard]] static std::string name_of(const StageBody& body);
   [[nodiscard]] bool has_bearings(const StageBody& body) const;
+  [[nodiscard]] bool has_radial_bearings(const StageBody& body) const;
   /// Why bodies move along the axis and tilt; empty: nothing makes them, and these degrees of freedom are left out.
   [[nodiscard]] std::vector<std::string> reasons_for_space() const;
   /// Whether anything stands still in the housing that is not the same in all directions, so that the forces depend on
@@ -129,6 +134,7 @@ struct StageMechanism {
     /// x, y, z, about x, about y: the element and coordinate that resists it, or the hold; -1: nothing.
     std::array<int, 5> element{-1, -1, -1, -1, -1}, coordinate{}, held{-1, -1, -1, -1, -1};
   };
+  std::vector<int> shared{};  ///< per hold: bearings that hold the same, and share what it bears
   std::vector<Bearing> bearings{};
   std::shared_ptr<const CoupledFaces> coupling{};  ///< of the driving flanks of the ring meshes; null without
   int carrier_hold = -1;                           ///< of its rotation, which bears its torque

@@ -38,14 +38,15 @@ StaticMesh mesh_in(const StageMechanism::Mesh& mesh, const Mechanism::Equilibriu
   return result;
 }
 
-StaticBearing bearing_in(const StageMechanism::Bearing& bearing, const Mechanism::Equilibrium& at) {
+StaticBearing bearing_in(const StageMechanism& made, const StageMechanism::Bearing& bearing,
+                         const Mechanism::Equilibrium& at) {
   StaticBearing result;
   for (std::size_t i = 0; i < bearing.element.size(); ++i) {
     double value = 0;
     if (bearing.element[i] >= 0)
       value = -at.state[static_cast<std::size_t>(bearing.element[i])].force[bearing.coordinate[i]];
     else if (bearing.held[i] >= 0)
-      value = -at.holding[bearing.held[i]];
+      value = -at.holding[bearing.held[i]] / made.shared[static_cast<std::size_t>(bearing.held[i])];
     if (i < 3)
       result.force[static_cast<Eigen::Index>(i)] = value;
     else
@@ -79,10 +80,11 @@ StaticPosition solved_position(const SpatialStage& stage, double cycles) {
     p.sun_meshes.push_back(mesh_in(made.meshes[n], at, normal_factor, 0));
     p.ring_meshes.push_back(mesh_in(made.meshes[planets + n], at, normal_factor, losses[static_cast<Eigen::Index>(n)]));
   }
-  for (const auto& bearing : made.bearings) p.bearings.push_back(bearing_in(bearing, at));
+  for (const auto& bearing : made.bearings) p.bearings.push_back(bearing_in(made, bearing, at));
   for (int b = 0; b < made.mechanism.bodies(); ++b) {
-    const bool planet = b >= 3;
-    const StageBody body{planet ? StageBody::Kind::planet : StageBody::Kind::housing, planet ? b - 3 : 0};
+    const bool planet = b >= 3;  // or its pin
+    const StageBody body{planet ? StageBody::Kind::planet : StageBody::Kind::housing,
+                         planet ? (b - 3) % stage.planets() : 0};
     const auto axes = frame_axes(stage, planet ? StageFrame::planet : StageFrame::carrier, body, p.time);
     p.bodies.push_back(
         {axes.transpose() * at.motion.segment<3>(6 * b), axes.transpose() * at.motion.segment<3>(6 * b + 3)});
@@ -92,7 +94,14 @@ StaticPosition solved_position(const SpatialStage& stage, double cycles) {
   return p;
 }
 
+double mean_force(const std::vector<StaticMesh>& meshes) {
+  double sum = 0;
+  for (const auto& mesh : meshes) sum += std::abs(mesh.force);
+  return sum / static_cast<double>(meshes.size());
+}
+
 StaticFigures::Mesh mesh_figures(const StaticTurn& turn, std::vector<StaticMesh> StaticPosition::*meshes) {
+  constexpr double light = StaticFigures::light_mesh;
   StaticFigures::Mesh result;
   const std::size_t planets = (turn.positions.front().*meshes).size();
   const auto phases = static_cast<std::size_t>(turn.schedule.phases);
@@ -112,7 +121,8 @@ StaticFigures::Mesh mesh_figures(const StaticTurn& turn, std::vector<StaticMesh>
       for (std::size_t n = 0; n < planets; ++n) {
         now.push_back(list[n].force);
         mean[n] += list[n].force;
-        result.line_load_ratio = std::max(result.line_load_ratio, list[n].line_load_ratio);
+        if (std::abs(list[n].force) >= light * mean_force(list))
+          result.line_load_ratio = std::max(result.line_load_ratio, list[n].line_load_ratio);
       }
       result.sharing_instantaneous = std::max(result.sharing_instantaneous, share(now));
     }
@@ -123,12 +133,20 @@ StaticFigures::Mesh mesh_figures(const StaticTurn& turn, std::vector<StaticMesh>
 
 }  // namespace
 
-StaticSchedule turn_of_carrier(const PlanetaryStage& stage, int places, int phases) {
+int period_of(const SpatialStage& stage) {
+  // A position error of the housing has the period that everything has that stands still in it.
+  auto plane = stage.plane;
+  if (stage.depends_on_carrier_angle()) plane.carrier.errors.position.amount = 1;
+  return plane.error_period();
+}
+
+StaticSchedule places_over(int cycles, int places, int phases) {
   StaticSchedule schedule;
   schedule.phases = phases;
   schedule.cycles.clear();
-  for (int i = 0; i < places; ++i)
-    schedule.cycles.push_back(std::round(static_cast<double>(i) * stage.ring_teeth / places));
+  const int count = std::min(places, cycles);
+  for (int i = 0; i < count; ++i)
+    schedule.cycles.push_back(std::floor(static_cast<double>(i) * static_cast<double>(cycles) / count));
   return schedule;
 }
 

@@ -45,8 +45,11 @@ struct StaticSchedule {
   int phases = 1;                   ///< of each
   [[nodiscard]] std::size_t positions() const { return cycles.size() * static_cast<std::size_t>(phases); }
 };
-/// `places` over a turn of the carrier past the ring, and so many phases.
-[[nodiscard]] StaticSchedule turn_of_carrier(const PlanetaryStage& stage, int places, int phases);
+/// Mesh cycles after which the forces of a stage repeat, but for their change within a cycle: errors, tables, and the
+/// housing where it matters. PlanetaryStage::never_repeats where they do not.
+[[nodiscard]] int period_of(const SpatialStage& stage);
+/// `places` over so many mesh cycles, no more than one in each, and so many phases.
+[[nodiscard]] StaticSchedule places_over(int cycles, int places, int phases);
 
 struct StaticTurn {
   StaticSchedule schedule;
@@ -60,10 +63,12 @@ struct StaticTurn {
 
 /// Results of a turn that engineers decide by.
 struct StaticFigures {
+  /// Of the mean force of all planets: meshes that carry less touch at an end of the face, which says nothing.
+  static constexpr double light_mesh = 0.05;
   struct Mesh {
     double sharing = 0;                ///< K_gamma: largest mean over a mesh cycle of a planet over that of all
     double sharing_instantaneous = 0;  ///< largest force of a planet over the mean of all, in any position
-    double line_load_ratio = 0;        ///< K_Hbeta: largest of all positions and planets
+    double line_load_ratio = 0;        ///< K_Hbeta: largest of all positions and planets, but for light meshes
   };
   Mesh sun, ring;
   std::vector<double> bearing_force{};  ///< N, largest radial force per bearing
