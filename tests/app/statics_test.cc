@@ -77,7 +77,8 @@ std::string bearing(const std::string& name, const std::string& body, const std:
 std::string in_space(const std::string& moment = "[50e3, 100e3, 0]", const std::string& down = "270") {
   return "[gravity]\ndirection_deg = " + down + "\ncarrier_at_mm = -100\n" +
          bearing("upwind row", "planet", "at_mm = -60\nradial_N_per_m = 2e9\naxial_N_per_m = 1e9\n") +
-         bearing("downwind row", "planet", "at_mm = 60\nradial_N_per_m = 2e9\nclearance_um = 60\n") +
+         bearing("downwind row", "planet",
+                 "at_mm = 60\nrollers = 18\nroller_length_mm = 60\nroller_diameter_mm = 40\nclearance_um = 60\n") +
          bearing("upwind", "carrier", "at_mm = -300\nradial_N_per_m = 3e9\naxial_N_per_m = 1e9\nclearance_um = 275\n") +
          bearing("downwind", "carrier",
                  "at_mm = 300\nradial_N_per_m = 3e9\nclearance_um = 180\nclearance_law = \"stop\"\n") +
@@ -325,6 +326,10 @@ BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
   told(bearing("a", "carrier", "radial_N_per_m = \"rigid\"\nclearance_um = 10\n"), "gives way beyond it");
   told(bearing("a", "carrier", "radial_N_per_m = 1e9\nx_N_per_m = 1e9\n"), "a value for each direction");
   told(bearing("a", "carrier", "stiffness_5x5_N_m_rad = [1, 2]\n"), "needs 25 values");
+  told(bearing("a", "carrier", "radial_N_per_m = 1e9\nclearance_um = -5\n"), "is a preload, which rollers alone have");
+  told(bearing("a", "carrier", "rollers = 20\nroller_length_mm = 20\n"), "roller_diameter_mm");
+  told(bearing("a", "carrier", "rollers = 20\nroller_length_mm = 20\nroller_diameter_mm = 20\nradial_N_per_m = 1e9\n"),
+       "follows from their contact");
   std::string rows = "[";
   for (int i = 0; i < 25; ++i) rows += std::string(i > 0 ? ", " : "") + (i % 6 == 0 ? "1e8" : i == 1 ? "1e7" : "0");
   told(bearing("a", "carrier", "stiffness_5x5_N_m_rad = " + rows + "]\n"), "not symmetric");

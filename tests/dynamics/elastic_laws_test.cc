@@ -48,6 +48,10 @@ BOOST_AUTO_TEST_CASE(force_and_tangent_belong_to_the_energy) {
                     std::vector<double>{3e-5, -2e-5});
   laws.emplace_back(std::make_unique<EvenFace>(2e9, stations, gap), std::vector<double>{2e-5, 1e-5, -1e-5, 2e-5});
   laws.emplace_back(std::make_unique<EvenFace>(2e9, stations, gap), std::vector<double>{-2e-5, -1e-5, 3e-5, 2e-5});
+  laws.emplace_back(std::make_unique<RollerRowLaw>(RollerRow{17, 30e-3, 30e-3}, 20e-6, true),
+                    std::vector<double>{3e-5, -2e-5, 4e-4, -1e-4});
+  laws.emplace_back(std::make_unique<RollerRowLaw>(RollerRow{17, 30e-3, 30e-3}, -10e-6, false),
+                    std::vector<double>{3e-5, -2e-5});
   Slopes worst;
   for (const auto& [law, at] : laws) {
     const Eigen::VectorXd point = Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at));
@@ -86,6 +90,30 @@ BOOST_AUTO_TEST_CASE(misaligned_pair) {
       record.close("K_Hbeta at six slopes, 1 and 7 stretches", "", ratio, expected, 1e-10, "bisection");
     }
   }
+}
+
+// Without clearance Q_max = 4.08 F / Z in line contact (Stribeck's number of rollers: 1 / J_r(0.5) = 1 / 0.2453), and
+// the rings approach each other by (Q_max / c_L)^0.9. The profile takes some of the length off; here it is that of thin
+// rollers, which is none.
+BOOST_AUTO_TEST_CASE(rollers_share_a_radial_load) {
+  annulus::test::Verification record("Row of cylindrical rollers", "load distribution of line contact; ISO/TS 16281");
+  const int rollers = 200;
+  const RollerRowLaw law({rollers, 40e-3, 1e-9}, 0, false);
+  const double approach = 20e-6, c_l = 35948 * std::pow(40.0, 8.0 / 9) * std::pow(1e3, 10.0 / 9);
+  const Eigen::Vector2d deflection(approach, 0);
+  const double force = law.at(deflection).force[0], most = law.largest_roller_load(deflection);
+  record.close("load of the most loaded roller times their number over the load", "", most * rollers / force, 4.08,
+               2e-3, "printed digits");
+  record.close("approach of the rings", "m", std::pow(most / c_l, 0.9), approach, 1e-6, "profile");
+  // Preload: all rollers carry, and small motions meet a stiffness that is the same in both directions.
+  const RollerRowLaw preloaded({rollers, 40e-3, 1e-9}, -20e-6, true);
+  const auto still = preloaded.at(Eigen::VectorXd::Zero(4));
+  BOOST_TEST(still.force.norm() <= 1e-9 * rollers * c_l * std::pow(10e-6, 10.0 / 9));
+  record.close("stiffness under preload", "N/m", still.tangent(0, 0),
+               rollers / 2.0 * 10.0 / 9 * c_l * std::pow(10e-6, 1.0 / 9), 1e-6, "sum over the rollers");
+  record.close("tilt stiffness under preload", "N m/rad", still.tangent(2, 2), still.tangent(0, 0) * 40e-3 * 40e-3 / 12,
+               2e-3, "slices along the roller");
+  BOOST_CHECK_THROW(RollerRowLaw({2, 40e-3, 1e-2}, 0, true), annulus::InputError);
 }
 
 // Meshes that press on each other through a common body: energy, and the forces by hand where all of them touch.

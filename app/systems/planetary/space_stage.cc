@@ -65,6 +65,11 @@ void add_bearings(const Scene& scene, dynamics::SpatialStage& stage) {
       b.play = input.clearance / 2;
       b.load_zone = input.load_zone;
       b.axial_play = input.axial_clearance / 2;
+      if (input.rollers) {
+        b.rollers = {*input.rollers, *input.roller_length, *input.roller_diameter};
+        b.clearance = input.clearance;
+        b.play = 0;
+      }
       if (!input.matrix.empty())
         b.matrix = Eigen::Map<const Eigen::Matrix<double, 5, 5, Eigen::RowMajor>>(input.matrix.data());
       stage.bearings.push_back(std::move(b));

@@ -70,17 +70,22 @@ Table bearing_table() {
   const auto stiffness = [&](const char* name, auto member, const char* meaning) {
     return bearing.key(name, member, meaning).from(0, 1e15).infinite().word("rigid", rigid);
   };
-  const auto has_matrix = given("stiffness_5x5_N_m_rad");
+  const auto has_matrix = given("stiffness_5x5_N_m_rad"), has_rollers = given("rollers");
+  constexpr const char* why_rollers = "the stiffness of the rollers follows from their contact";
   constexpr const char* why_matrix = "the matrix contains all stiffnesses";
   stiffness("radial_N_per_m", &BearingInput::radial, "Radial stiffness, the same in all directions.")
       .refused_if(has_matrix, why_matrix)
+      .refused_if(has_rollers, why_rollers)
       .refused_if(given("x_N_per_m") || given("y_N_per_m"), "the stiffness has a value for each direction")
       .absent("none");
   for (const auto& [name, member, meaning] :
        {std::tuple{"x_N_per_m", &BearingInput::x,
                    "Stiffness along x: towards planet 1 at time 0; of planets radially outwards."},
         {"y_N_per_m", &BearingInput::y, "Stiffness along y; of planets tangentially."}})
-    stiffness(name, member, meaning).refused_if(has_matrix, why_matrix).absent("radial_N_per_m");
+    stiffness(name, member, meaning)
+        .refused_if(has_matrix, why_matrix)
+        .refused_if(has_rollers, why_rollers)
+        .absent("radial_N_per_m");
   stiffness("axial_N_per_m", &BearingInput::axial, "Stiffness along the axis.")
       .refused_if(has_matrix, why_matrix)
       .fallback(0.0, "it does not hold along the axis");
@@ -89,19 +94,36 @@ Table bearing_table() {
       .infinite()
       .word("rigid", rigid)
       .refused_if(has_matrix, why_matrix)
+      .refused_if(has_rollers, why_rollers)
       .fallback(0.0, "it tilts freely");
   bearing
+      .key("rollers", &BearingInput::rollers,
+           "Number of cylindrical rollers in the row. Their line contact (ISO/TS 16281, steel, logarithmic profile) "
+           "gives "
+           "its radial and tilting stiffness.")
+      .from(3, 1000)
+      .refused_if(has_matrix, why_matrix)
+      .absent("the single stiffnesses");
+  bearing.key("roller_length_mm", &BearingInput::roller_length, "Effective length of the rollers.")
+      .above(0, 1000)
+      .needed_if(has_rollers);
+  bearing.key("roller_diameter_mm", &BearingInput::roller_diameter, "Diameter of the rollers.")
+      .above(0, 1000)
+      .needed_if(has_rollers);
+  bearing
       .key("clearance_um", &BearingInput::clearance,
-           "Radial clearance (ISO 5753-1): how far the body moves across it from stop to stop.")
-      .only_if(given("radial_N_per_m"), "beyond the clearance it has one stiffness in all directions")
+           "Radial clearance (ISO 5753-1): how far the body moves across it from stop to stop. Negative, of rollers "
+           "alone: preload.")
+      .only_if(given("radial_N_per_m") || has_rollers, "beyond the clearance it has one stiffness in all directions")
       .fallback(0.0, "none")
-      .from(0, 1e5);
+      .from(-1000, 1e5);
   bearing
       .choice("clearance_law", &BearingInput::load_zone, {{"load_zone", true}, {"stop", false}},
               "Force beyond the clearance. load_zone: rollers of linear stiffness, of which more carry the larger the "
               "load is; radial_N_per_m is the stiffness without clearance. stop: radial_N_per_m times the way beyond "
               "half the clearance.")
       .only_if(given("clearance_um"), "without clearance both are the same")
+      .refused_if(has_rollers, "rollers have a law of their own")
       .fallback("load_zone", "as in rolling bearings");
   bearing
       .key("axial_clearance_um", &BearingInput::axial_clearance,
@@ -189,9 +211,9 @@ Table statics_table() {
   statics.optional();
   statics
       .key("carrier_positions", &StaticsInput::places,
-           "Positions of the carrier over the mesh cycles after which the forces repeat, at most one in each: a turn "
-           "where "
-           "weight and loads of the housing act, otherwise the common period of the errors.")
+           "Positions of the carrier over the mesh cycles after which the forces repeat, at most one in each. These "
+           "are a "
+           "turn where weight and loads of the housing act, otherwise the common period of the errors.")
       .from(1, 100000)
       .absent("32; with eccentric gears or pitch deviations 768, or 96 of solid gears");
   statics.key("mesh_phases", &StaticsInput::phases, "Positions in the mesh cycle that begins at each of them.")
@@ -255,7 +277,10 @@ class SpaceChecks : KeyChecks {
               "needs a bearing that gives way beyond it; use a finite stiffness");
     if (b.clearance > 0 && b.radial == 0.0 && usable("bearing.clearance_um", i))
       problem("bearing.clearance_um", i, "needs a stiffness beyond it: bearing.radial_N_per_m is 0");
+    if (b.clearance < 0 && !b.rollers && usable("bearing.clearance_um", i))
+      problem("bearing.clearance_um", i, "is a preload, which rollers alone have (bearing.rollers); use 0 or more");
     if (!b.matrix.empty()) return matrix(i, b.matrix);
+    if (b.rollers) return;
     const bool any =
         b.radial.value_or(0) > 0 || b.x.value_or(0) > 0 || b.y.value_or(0) > 0 || b.axial > 0 || b.tilt > 0;
     const bool all_usable = std::all_of(std::begin(stiffness_keys), std::end(stiffness_keys),

@@ -135,13 +135,15 @@ void check_sun(const Scene& scene) {
   const auto& bearings = scene.own<SpaceInput>().bearings;
   const auto* sun = scene.find("supports.sun_N_per_m");
   const bool given = sun != nullptr && sun->origin == Origin::scene;
-  const bool has_bearing = std::any_of(bearings.begin(), bearings.end(),
-                                       [](const auto& b) { return b.body == dynamics::StageBody::Kind::sun; });
+  const bool has_bearing = std::any_of(bearings.begin(), bearings.end(), [](const auto& b) {
+    const bool radial = b.radial || b.x || b.y || b.rollers || !b.matrix.empty();
+    return radial && b.body == dynamics::StageBody::Kind::sun;
+  });
   if (!given && !has_bearing && scene.stage.planets > 1)
-    throw InputError(
-        fmt::format("{}: supports.sun_N_per_m: is required by annulus statics where no [[bearing]] holds the sun: it "
-                    "has the largest effect on load sharing; give a stiffness, \"floating\" or \"rigid\"",
-                    scene.file.string()));
+    throw InputError(fmt::format(
+        "{}: supports.sun_N_per_m: is required by annulus statics where no [[bearing]] holds the sun radially: it "
+        "has the largest effect on load sharing; give a stiffness, \"floating\" or \"rigid\"",
+        scene.file.string()));
 }
 
 /// Bodies of computed meshes, whose stiffness is known to their error.

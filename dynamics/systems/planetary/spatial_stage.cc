@@ -36,7 +36,8 @@ Vector3d centre_of(const SpatialStage& stage, const StageBody& body) {
 /// A bearing and its mirror image about the middle of the face do the same.
 bool mirrors(const StageBearing& a, const StageBearing& b) {
   return a.body == b.body && a.on == b.on && a.frame == b.frame && a.place == -b.place && a.x == b.x && a.y == b.y &&
-         a.play == b.play && a.load_zone == b.load_zone && !a.matrix && !b.matrix;
+         a.play == b.play && a.load_zone == b.load_zone && a.rollers == b.rollers && a.clearance == b.clearance &&
+         !a.matrix && !b.matrix;
 }
 /// Does a displacement in the plane call for no axial force and no tilting moment?
 bool keeps_plane(const Eigen::Matrix<double, 5, 5>& k) {
@@ -148,7 +149,10 @@ class Assembly {
       const auto count = static_cast<Eigen::Index>(coordinates.size());
       add_element(made, b, coordinates, std::make_shared<LinearLaw>(b.matrix->topLeftCorner(count, count)));
     } else {
-      if (b.play > 0 && b.x > 0) {
+      if (b.rollers) {
+        const auto law = std::make_shared<RollerRowLaw>(*b.rollers, b.clearance, space_);
+        add_element(made, b, space_ ? std::vector<int>{0, 1, 3, 4} : std::vector<int>{0, 1}, law);
+      } else if (b.play > 0 && b.x > 0) {
         if (b.load_zone)
           add_element(made, b, {0, 1}, std::make_shared<LoadZoneLaw>(RadialBearing(b.x, b.play, b.seat), b.x));
         else
@@ -159,8 +163,10 @@ class Assembly {
       }
       if (space_) {
         add_scalar(made, b, 2, b.axial, b.axial_play);
-        add_scalar(made, b, 3, b.tilt, 0);
-        add_scalar(made, b, 4, b.tilt, 0);
+        if (!b.rollers) {
+          add_scalar(made, b, 3, b.tilt, 0);
+          add_scalar(made, b, 4, b.tilt, 0);
+        }
       }
     }
     result_.bearings.push_back(std::move(made));
@@ -356,7 +362,7 @@ bool SpatialStage::has_bearings(const StageBody& body) const {
 
 bool SpatialStage::has_radial_bearings(const StageBody& body) const {
   return std::any_of(bearings.begin(), bearings.end(),
-                     [&](const auto& b) { return b.body == body && (b.matrix || b.x > 0 || b.y > 0); });
+                     [&](const auto& b) { return b.body == body && (b.matrix || b.rollers || b.x > 0 || b.y > 0); });
 }
 
 std::vector<std::string> SpatialStage::reasons_for_space() const {
@@ -383,7 +389,7 @@ std::vector<std::string> SpatialStage::reasons_for_space() const {
     const bool paired =
         b.matrix ? b.place == 0 && keeps_plane(*b.matrix)
                  : std::any_of(bearings.begin(), bearings.end(), [&](const auto& o) { return mirrors(b, o); });
-    const bool radial = b.matrix || b.x > 0 || b.y > 0;
+    const bool radial = b.matrix || b.rollers || b.x > 0 || b.y > 0;
     if (radial && !paired)
       reasons.push_back(fmt::format("bearing '{}' of the {} has no counterpart on the other side of the face", b.name,
                                     name_of(b.body)));
@@ -400,7 +406,7 @@ bool SpatialStage::depends_on_carrier_angle() const {
   if (gravity.head<2>().any() && !weights.empty()) return true;
   for (const auto& b : bearings) {
     if (b.frame != StageFrame::housing) continue;
-    if (b.matrix || b.x != b.y) return true;
+    if (b.matrix || b.rollers || b.x != b.y) return true;
   }
   const auto fixed = [](const CentralBody& body) { return body.errors.position.exists(); };
   return fixed(plane.sun) || fixed(plane.ring) || fixed(plane.carrier);

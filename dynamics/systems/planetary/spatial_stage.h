@@ -9,6 +9,7 @@
 
 #include "core/elastic_law.h"
 #include "dynamics/spatial/coupled_faces.h"
+#include "dynamics/spatial/elastic_laws.h"
 #include "dynamics/spatial/mechanism.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
@@ -34,14 +35,16 @@ struct StageBearing {
   std::string name;
   StageBody body, on;
   StageFrame frame = StageFrame::housing;
-  double place = 0;       ///< m, z
-  double x = 0, y = 0;    ///< N/m; `rigid`: does not move
-  double axial = 0;       ///< N/m
-  double tilt = 0;        ///< N m/rad, about x and y
-  double play = 0;        ///< m, half the radial clearance; x and y are then equal and finite
-  bool load_zone = true;  ///< with play: RadialBearing; else a stop (StopLaw)
-  double axial_play = 0;  ///< m, half the axial clearance
-  double seat = rigid;    ///< N/m, in series with a bearing that has play and a load zone
+  double place = 0;                    ///< m, z
+  double x = 0, y = 0;                 ///< N/m; `rigid`: does not move
+  double axial = 0;                    ///< N/m
+  double tilt = 0;                     ///< N m/rad, about x and y
+  double play = 0;                     ///< m, half the radial clearance; x and y are then equal and finite
+  bool load_zone = true;               ///< with play: RadialBearing; else a stop (StopLaw)
+  double axial_play = 0;               ///< m, half the axial clearance
+  std::optional<RollerRow> rollers{};  ///< instead of x, y, tilt and play
+  double clearance = 0;                ///< m, of the rollers; negative: preload
+  double seat = rigid;                 ///< N/m, in series with a bearing that has play and a load zone
   std::optional<Eigen::Matrix<double, 5, 5>> matrix{};  ///< instead of the stiffnesses; SI
 };
 
