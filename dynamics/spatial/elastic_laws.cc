@@ -73,6 +73,46 @@ ElasticLaw::State StopLaw::at(const Eigen::VectorXd& deflection) const {
 
 Eigen::MatrixXd StopLaw::in_contact() const { return stiffness_ * Eigen::MatrixXd::Identity(directions_, directions_); }
 
+TableLaw::TableLaw(std::vector<double> distance, std::vector<double> force)
+    : distance_(std::move(distance)), force_(std::move(force)) {
+  if (distance_.size() != force_.size() || distance_.size() < 2)
+    throw InputError(
+        fmt::format("a table of a bearing needs as many forces as displacements, two or more, not {} and {}",
+                    force_.size(), distance_.size()));
+  if (distance_.front() > 0) {
+    distance_.insert(distance_.begin(), 0.0);
+    force_.insert(force_.begin(), 0.0);
+  }
+  if (distance_.front() < 0 || force_.front() != 0)
+    throw InputError(
+        fmt::format("a table of a bearing begins with no force at no displacement, not with {:g} N at {:g} m",
+                    force_.front(), distance_.front()));
+  for (std::size_t i = 1; i < distance_.size(); ++i) {
+    if (!(distance_[i] > distance_[i - 1]) || !(force_[i] >= force_[i - 1]))
+      throw InputError(fmt::format("a table of a bearing must rise: {:g} N at {:g} m follow {:g} N at {:g} m",
+                                   force_[i], distance_[i], force_[i - 1], distance_[i - 1]));
+    steepest_ = std::max(steepest_, (force_[i] - force_[i - 1]) / (distance_[i] - distance_[i - 1]));
+  }
+  if (!(force_.back() > force_[force_.size() - 2]))
+    throw InputError("a table of a bearing must rise up to its end, from where it goes on");
+}
+
+ElasticLaw::State TableLaw::at(const Eigen::VectorXd& deflection) const {
+  const double d = deflection.norm(), within = force_[1] > 0 ? 0.0 : stiffness_in_play * steepest_;
+  double energy = within * d * d / 2, force = within * d, slope = within;
+  for (std::size_t i = 1; i < distance_.size(); ++i) {
+    const bool last = i + 1 == distance_.size(), here = last || d < distance_[i];
+    const double piece = (force_[i] - force_[i - 1]) / (distance_[i] - distance_[i - 1]);
+    const double way = (here ? d : distance_[i]) - distance_[i - 1];
+    energy += (force_[i - 1] + piece * way / 2) * way;
+    if (!here) continue;
+    force += force_[i - 1] + piece * way;
+    slope += piece;
+    break;
+  }
+  return central_state(deflection, d, energy, force, slope);
+}
+
 namespace {
 
 constexpr int roller_slices = 31;

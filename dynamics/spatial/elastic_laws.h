@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "core/elastic_law.h"
 #include "core/radial_bearing.h"
@@ -37,6 +38,22 @@ class StopLaw final : public ElasticLaw {
  private:
   int directions_;
   double stiffness_, play_;
+};
+
+/// Two radial directions of a measured or computed bearing: force over the distance of its rings, along it, in straight
+/// pieces. Beyond the last point the last piece goes on.
+class TableLaw final : public ElasticLaw {
+ public:
+  /// `distance`: m, rising, not negative. `force`: N, not falling, not negative; 0 at a distance of 0. Throws
+  /// InputError with the first point that breaks this.
+  TableLaw(std::vector<double> distance, std::vector<double> force);
+  [[nodiscard]] int size() const override { return 2; }
+  [[nodiscard]] State at(const Eigen::VectorXd& deflection) const override;
+  [[nodiscard]] Eigen::MatrixXd in_contact() const override { return steepest_ * Eigen::Matrix2d::Identity(); }
+
+ private:
+  std::vector<double> distance_, force_;
+  double steepest_ = 0;  ///< N/m
 };
 
 /// A row of cylindrical rollers.

@@ -328,6 +328,8 @@ BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
   told(bearing("a", "carrier", "stiffness_5x5_N_m_rad = [1, 2]\n"), "needs 25 values");
   told(bearing("a", "carrier", "radial_N_per_m = 1e9\nclearance_um = -5\n"), "is a preload, which rollers alone have");
   told(bearing("a", "carrier", "rollers = 20\nroller_length_mm = 20\n"), "roller_diameter_mm");
+  told(bearing("a", "carrier", "radial_displacement_um = [0, 10]\nradial_force_N = [0, 0]\n"), "must rise");
+  told(bearing("a", "carrier", "radial_displacement_um = [0, 10]\n"), "radial_force_N");
   told(bearing("a", "carrier", "rollers = 20\nroller_length_mm = 20\nroller_diameter_mm = 20\nradial_N_per_m = 1e9\n"),
        "follows from their contact");
   std::string rows = "[";

@@ -52,6 +52,10 @@ BOOST_AUTO_TEST_CASE(force_and_tangent_belong_to_the_energy) {
                     std::vector<double>{3e-5, -2e-5, 4e-4, -1e-4});
   laws.emplace_back(std::make_unique<RollerRowLaw>(RollerRow{17, 30e-3, 30e-3}, -10e-6, false),
                     std::vector<double>{3e-5, -2e-5});
+  laws.emplace_back(std::make_unique<TableLaw>(std::vector<double>{1e-5, 2e-5, 5e-5}, std::vector<double>{0, 1e4, 8e4}),
+                    std::vector<double>{3e-5, -2e-5});
+  laws.emplace_back(std::make_unique<TableLaw>(std::vector<double>{0, 2e-5}, std::vector<double>{0, 1e4}),
+                    std::vector<double>{3e-5, -2e-5});
   Slopes worst;
   for (const auto& [law, at] : laws) {
     const Eigen::VectorXd point = Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at));
@@ -156,6 +160,9 @@ BOOST_AUTO_TEST_CASE(laws_that_give_energy_away_are_refused) {
   BOOST_CHECK_THROW(LinearLaw{k}, annulus::InputError);
   BOOST_CHECK_THROW(StopLaw(2, 0, 1e-5), annulus::InputError);
   BOOST_CHECK_THROW(StopLaw(2, 1e8, -1e-5), annulus::InputError);
+  BOOST_CHECK_THROW(TableLaw({0, 1e-5}, {0, -1}), annulus::InputError);
+  BOOST_CHECK_THROW(TableLaw({0, 1e-5}, {1, 2}), annulus::InputError);
+  BOOST_CHECK_THROW(TableLaw({0, 1e-5, 2e-5}, {0, 1, 1}), annulus::InputError);
   BOOST_CHECK_THROW(EvenFace(1e9, {0.1, 0.0}, {0.0, 0.0}), annulus::InputError);
   BOOST_CHECK_THROW(EvenFace(-1, {0.0, 0.1}, {0.0, 0.0}), annulus::InputError);
 }

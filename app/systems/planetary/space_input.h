@@ -23,6 +23,7 @@ struct BearingInput {
   double clearance = 0, axial_clearance = 0;
   bool load_zone = true;
   std::vector<double> matrix;
+  std::vector<double> displacement, force;
   std::optional<int> rollers;
   std::optional<double> roller_length, roller_diameter;
 };

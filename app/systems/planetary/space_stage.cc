@@ -39,6 +39,7 @@ std::vector<StageBody> bodies_of(const Scene& scene, Body kind, const std::optio
   if (kind != Body::planet) return {{kind}};
   if (planet) return {{kind, *planet - 1}};
   std::vector<StageBody> all;
+  all.reserve(static_cast<std::size_t>(scene.stage.planets));
   for (int n = 0; n < scene.stage.planets; ++n) all.push_back({kind, n});
   return all;
 }
@@ -65,6 +66,8 @@ void add_bearings(const Scene& scene, dynamics::SpatialStage& stage) {
       b.play = input.clearance / 2;
       b.load_zone = input.load_zone;
       b.axial_play = input.axial_clearance / 2;
+      b.distance = input.displacement;
+      b.force = input.force;
       if (input.rollers) {
         b.rollers = {*input.rollers, *input.roller_length, *input.roller_diameter};
         b.clearance = input.clearance;

@@ -97,6 +97,17 @@ Table bearing_table() {
       .refused_if(has_rollers, why_rollers)
       .fallback(0.0, "it tilts freely");
   bearing
+      .key("radial_displacement_um", &BearingInput::displacement,
+           "Radial displacements of a table, rising from 0 or from where the clearance ends.")
+      .from(0, 1e5)
+      .together_with("radial_force_N")
+      .refused_if(has_matrix || has_rollers || given("radial_N_per_m") || given("x_N_per_m") || given("y_N_per_m"),
+                  "the table is the radial stiffness")
+      .absent("the single stiffnesses");
+  bearing.key("radial_force_N", &BearingInput::force, "Forces at these displacements, along them; they must not fall.")
+      .from(0, 1e9)
+      .absent("the single stiffnesses");
+  bearing
       .key("rollers", &BearingInput::rollers,
            "Number of cylindrical rollers in the row. Their line contact (ISO/TS 16281, steel, logarithmic profile) "
            "gives "
@@ -281,6 +292,12 @@ class SpaceChecks : KeyChecks {
       problem("bearing.clearance_um", i, "is a preload, which rollers alone have (bearing.rollers); use 0 or more");
     if (!b.matrix.empty()) return matrix(i, b.matrix);
     if (b.rollers) return;
+    if (!b.displacement.empty() && usable("bearing.radial_displacement_um", i) && usable("bearing.radial_force_N", i))
+      try {
+        return (void)dynamics::TableLaw(b.displacement, b.force);
+      } catch (const InputError& error) {
+        return problem("bearing.radial_force_N", i, error.what());
+      }
     const bool any =
         b.radial.value_or(0) > 0 || b.x.value_or(0) > 0 || b.y.value_or(0) > 0 || b.axial > 0 || b.tilt > 0;
     const bool all_usable = std::all_of(std::begin(stiffness_keys), std::end(stiffness_keys),

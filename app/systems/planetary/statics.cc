@@ -66,16 +66,20 @@ double largest(const StaticTurn& turn, const std::function<double(const StaticPo
 }
 
 FigureSet all_figures(const StaticTurn& turn, const std::vector<OtherTurn>& others) {
-  FigureSet set;
   using dynamics::StaticFigures;
-  for (const auto& [name, mesh] : {std::pair{"sun_planet", &StaticFigures::sun}, {"ring_planet", &StaticFigures::ring}})
-    for (const auto& [key, member] : {std::pair{"load_sharing", &StaticFigures::Mesh::sharing},
-                                      {"load_sharing_instantaneous", &StaticFigures::Mesh::sharing_instantaneous},
-                                      {"face_load_factor", &StaticFigures::Mesh::line_load_ratio}})
-      set.set(fmt::format("{}_static_{}", name, key),
-              with_error(
-                  turn, others, [&](const StaticTurn& t) { return dynamics::figures_of(t).*mesh.*member; },
-                  member == &StaticFigures::Mesh::line_load_ratio ? Course::with_kinks : Course::smooth));
+  FigureSet set;
+  const auto add = [&](const char* name, StaticFigures::Mesh StaticFigures::*mesh, const char* key,
+                       double StaticFigures::Mesh::*member, Course course) {
+    set.set(fmt::format("{}_static_{}", name, key),
+            with_error(
+                turn, others, [&](const StaticTurn& t) { return dynamics::figures_of(t).*mesh.*member; }, course));
+  };
+  for (const auto& [name, mesh] :
+       {std::pair{"sun_planet", &StaticFigures::sun}, {"ring_planet", &StaticFigures::ring}}) {
+    add(name, mesh, "load_sharing", &StaticFigures::Mesh::sharing, Course::smooth);
+    add(name, mesh, "load_sharing_instantaneous", &StaticFigures::Mesh::sharing_instantaneous, Course::smooth);
+    add(name, mesh, "face_load_factor", &StaticFigures::Mesh::line_load_ratio, Course::with_kinks);
+  }
   return set;
 }
 
@@ -136,7 +140,7 @@ void check_sun(const Scene& scene) {
   const auto* sun = scene.find("supports.sun_N_per_m");
   const bool given = sun != nullptr && sun->origin == Origin::scene;
   const bool has_bearing = std::any_of(bearings.begin(), bearings.end(), [](const auto& b) {
-    const bool radial = b.radial || b.x || b.y || b.rollers || !b.matrix.empty();
+    const bool radial = b.radial || b.x || b.y || b.rollers || !b.displacement.empty() || !b.matrix.empty();
     return radial && b.body == dynamics::StageBody::Kind::sun;
   });
   if (!given && !has_bearing && scene.stage.planets > 1)

@@ -37,7 +37,7 @@ Vector3d centre_of(const SpatialStage& stage, const StageBody& body) {
 bool mirrors(const StageBearing& a, const StageBearing& b) {
   return a.body == b.body && a.on == b.on && a.frame == b.frame && a.place == -b.place && a.x == b.x && a.y == b.y &&
          a.play == b.play && a.load_zone == b.load_zone && a.rollers == b.rollers && a.clearance == b.clearance &&
-         !a.matrix && !b.matrix;
+         a.distance == b.distance && a.force == b.force && !a.matrix && !b.matrix;
 }
 /// Does a displacement in the plane call for no axial force and no tilting moment?
 bool keeps_plane(const Eigen::Matrix<double, 5, 5>& k) {
@@ -152,6 +152,8 @@ class Assembly {
       if (b.rollers) {
         const auto law = std::make_shared<RollerRowLaw>(*b.rollers, b.clearance, space_);
         add_element(made, b, space_ ? std::vector<int>{0, 1, 3, 4} : std::vector<int>{0, 1}, law);
+      } else if (!b.distance.empty()) {
+        add_element(made, b, {0, 1}, std::make_shared<TableLaw>(b.distance, b.force));
       } else if (b.play > 0 && b.x > 0) {
         if (b.load_zone)
           add_element(made, b, {0, 1}, std::make_shared<LoadZoneLaw>(RadialBearing(b.x, b.play, b.seat), b.x));
@@ -362,7 +364,7 @@ bool SpatialStage::has_bearings(const StageBody& body) const {
 
 bool SpatialStage::has_radial_bearings(const StageBody& body) const {
   return std::any_of(bearings.begin(), bearings.end(),
-                     [&](const auto& b) { return b.body == body && (b.matrix || b.rollers || b.x > 0 || b.y > 0); });
+                     [&](const auto& b) { return b.body == body && b.holds_radially(); });
 }
 
 std::vector<std::string> SpatialStage::reasons_for_space() const {
@@ -389,7 +391,7 @@ std::vector<std::string> SpatialStage::reasons_for_space() const {
     const bool paired =
         b.matrix ? b.place == 0 && keeps_plane(*b.matrix)
                  : std::any_of(bearings.begin(), bearings.end(), [&](const auto& o) { return mirrors(b, o); });
-    const bool radial = b.matrix || b.rollers || b.x > 0 || b.y > 0;
+    const bool radial = b.holds_radially();
     if (radial && !paired)
       reasons.push_back(fmt::format("bearing '{}' of the {} has no counterpart on the other side of the face", b.name,
                                     name_of(b.body)));

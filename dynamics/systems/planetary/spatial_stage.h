@@ -35,16 +35,18 @@ struct StageBearing {
   std::string name;
   StageBody body, on;
   StageFrame frame = StageFrame::housing;
-  double place = 0;                    ///< m, z
-  double x = 0, y = 0;                 ///< N/m; `rigid`: does not move
-  double axial = 0;                    ///< N/m
-  double tilt = 0;                     ///< N m/rad, about x and y
-  double play = 0;                     ///< m, half the radial clearance; x and y are then equal and finite
-  bool load_zone = true;               ///< with play: RadialBearing; else a stop (StopLaw)
-  double axial_play = 0;               ///< m, half the axial clearance
-  std::optional<RollerRow> rollers{};  ///< instead of x, y, tilt and play
-  double clearance = 0;                ///< m, of the rollers; negative: preload
-  double seat = rigid;                 ///< N/m, in series with a bearing that has play and a load zone
+  double place = 0;                         ///< m, z
+  double x = 0, y = 0;                      ///< N/m; `rigid`: does not move
+  double axial = 0;                         ///< N/m
+  double tilt = 0;                          ///< N m/rad, about x and y
+  double play = 0;                          ///< m, half the radial clearance; x and y are then equal and finite
+  bool load_zone = true;                    ///< with play: RadialBearing; else a stop (StopLaw)
+  double axial_play = 0;                    ///< m, half the axial clearance
+  std::vector<double> distance{}, force{};  ///< m, N: radial, over each other, instead of x, y and play (TableLaw)
+  std::optional<RollerRow> rollers{};       ///< instead of x, y, tilt and play
+  double clearance = 0;                     ///< m, of the rollers; negative: preload
+  double seat = rigid;                      ///< N/m, in series with a bearing that has play and a load zone
+  [[nodiscard]] bool holds_radially() const { return matrix || rollers || !distance.empty() || x > 0 || y > 0; }
   std::optional<Eigen::Matrix<double, 5, 5>> matrix{};  ///< instead of the stiffnesses; SI
 };
 
