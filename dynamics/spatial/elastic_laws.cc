@@ -130,7 +130,8 @@ RollerRowLaw::RollerRowLaw(const RollerRow& row, double clearance, bool tilts) :
   measures_.resize(row.rollers * roller_slices, size());
   gaps_.resize(measures_.rows());
   for (Eigen::Index i = 0; i < measures_.rows(); ++i) {
-    const double angle = 2 * std::numbers::pi * static_cast<double>(i / roller_slices) / row.rollers;
+    const Eigen::Index roller = i / roller_slices;
+    const double angle = 2 * std::numbers::pi * static_cast<double>(roller) / row.rollers;
     const double share = (2 * static_cast<double>(i % roller_slices) + 1) / roller_slices - 1;
     const double z = share * row.length / 2, c = std::cos(angle), s = std::sin(angle);
     measures_.row(i).head<2>() << c, s;

@@ -236,8 +236,11 @@ Blocks bearing_blocks(const RingStatics& ring) {
   Blocks blocks = heading(fmt::format("Bearings, '{}'", ring.ring));
   blocks += table;
   PageTable tilts{.head = {"body", "tilt, largest, µrad"}, .style = PageTable::Style::numbers};
-  for (std::size_t b = 0; b < ring.tilt.size(); ++b)
-    tilts.rows.push_back({ring.turn.body_names[b], measured(ring.tilt[b], to_micro)});
+  for (std::size_t b = 0; b < ring.tilt.size(); ++b) {
+    constexpr double rounding = 1e-12;  // rad
+    const bool still = ring.tilt[b].value < rounding;
+    tilts.rows.push_back({ring.turn.body_names[b], still ? std::string("0") : measured(ring.tilt[b], to_micro)});
+  }
   if (!ring.reasons.empty()) blocks += tilts;
   return blocks;
 }
