@@ -12,6 +12,7 @@
 #include "tests/app/run_program.h"
 #include "tests/app/scene_refusal.h"
 #include "tests/app/scenes.h"
+#include "tests/app/statics_scenes.h"
 #include "tests/temporary_folder.h"
 #include "tests/verification_record.h"
 
@@ -20,106 +21,9 @@ BOOST_AUTO_TEST_SUITE(statics)
 
 using namespace annulus;
 
-namespace {
+using namespace annulus::test::statics;
 
 constexpr double pi = std::numbers::pi;
-
-/// Three helical planets of prescribed stiffness, everything else to be added. The sun drives.
-std::string helical_stage(const std::string& helix = "7.5", const std::string& speed = "100") {
-  return R"(title = "Helical"
-[stage]
-kind = "planetary"
-planets = 3
-module_mm = 10
-pressure_angle_deg = 20
-helix_angle_deg = )" +
-         helix + R"(
-face_width_mm = 220
-centre_distance_mm = 308
-sun_torque_Nm = 56875
-sun_speed_rpm = )" +
-         speed + R"(
-[material]
-youngs_modulus_GPa = 206
-[sun]
-teeth = 21
-profile_shift = 0.176
-mass_kg = 180
-[planet]
-teeth = 39
-profile_shift = 0.399
-mass_kg = 110
-[carrier]
-mass_kg = 1500
-[[ring]]
-name = "held"
-structure = "traditional"
-teeth = 99
-profile_shift = 0.974
-outside_diameter_mm = 1200
-mass_kg = 509
-[mesh.sun_planet]
-stiffness = "constant"
-mean_N_per_m = 3e9
-half_backlash_um = 300
-[mesh.ring_planet]
-stiffness = "constant"
-mean_N_per_m = 4e9
-half_backlash_um = 300
-)";
-}
-
-std::string bearing(const std::string& name, const std::string& body, const std::string& keys) {
-  return "[[bearing]]\nname = \"" + name + "\"\nbody = \"" + body + "\"\n" + keys;
-}
-
-/// Carrier bearings with clearance, planets on two rows, a sun in a spline, weight, and a rotor's moment.
-std::string in_space(const std::string& moment = "[50e3, 100e3, 0]", const std::string& down = "270") {
-  return "[gravity]\ndirection_deg = " + down + "\ncarrier_at_mm = -100\n" +
-         bearing("upwind row", "planet", "at_mm = -60\nradial_N_per_m = 2e9\naxial_N_per_m = 1e9\n") +
-         bearing("downwind row", "planet",
-                 "at_mm = 60\nrollers = 18\nroller_length_mm = 60\nroller_diameter_mm = 40\nclearance_um = 60\n") +
-         bearing("upwind", "carrier", "at_mm = -300\nradial_N_per_m = 3e9\naxial_N_per_m = 1e9\nclearance_um = 275\n") +
-         bearing("downwind", "carrier",
-                 "at_mm = 300\nradial_N_per_m = 3e9\nclearance_um = 180\nclearance_law = \"stop\"\n") +
-         bearing("spline", "sun", "at_mm = 700\nradial_N_per_m = 5e7\naxial_N_per_m = 3e8\ntilt_Nm_per_rad = 1e6\n") +
-         "[[load]]\nname = \"rotor\"\nbody = \"carrier\"\nmoment_Nm = " + moment + "\n";
-}
-
-/// The same stage with computed meshes, a pin beside its place and a sun that is held softly.
-std::string solid_stage() {
-  auto scene = helical_stage();
-  scene = scene.substr(0, scene.find("[mesh.sun_planet]"));
-  scene = test::replaced(scene, "title = \"Helical\"\n", "title = \"Helical\"\naccuracy = 0.05\n");
-  scene = test::replaced(scene, "mass_kg = 180\n", "mass_kg = 180\ninertia_kg_m2 = 1\nbore_diameter_mm = 80\n");
-  scene = test::replaced(scene, "mass_kg = 110\n", "mass_kg = 110\ninertia_kg_m2 = 3\nbore_diameter_mm = 290\n");
-  scene = test::replaced(scene, "mass_kg = 1500\n", "mass_kg = 1500\ninertia_kg_m2 = 45\n");
-  scene = test::replaced(scene, "mass_kg = 509\n", "mass_kg = 509\ninertia_kg_m2 = 153\n");
-  scene +=
-      "[errors]\nplanet_pin_position_error_um = [0, 40, 0]\nplanet_pin_position_error_phase_deg = [0, 210, 0]\n"
-      "[supports]\nsun_N_per_m = 2e9\nplanet_N_per_m = 2e9\n"
-      "[dynamics]\nhalf_backlash_um = 300\nmesh_damping_ratio = 0.07\nsupport_damping_ratio = 0.03\n"
-      "rim_coupling = \"none\"\n[statics]\nmesh_phases = 8\n";
-  return scene;
-}
-
-/// `annulus statics` of a scene; its files are in `folder`/out.
-Json solved(const test::TemporaryFolder& folder, const std::string& scene) {
-  write_file(folder.path() / "scene.toml", scene);
-  const auto outcome = test::run_program(folder.path(), "statics scene.toml --out out --quiet");
-  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
-  return Json::parse(read_file(folder.path() / "out/statics.json"));
-}
-
-double result(const Json& json, const std::string& key) {
-  return json.at("rings").at("held").at("results").at(key).at("value").get<double>();
-}
-
-Csv table(const test::TemporaryFolder& folder, const std::string& name) {
-  return Csv::read(folder.path() / "out/statics/held" / name);
-}
-
-}  // namespace
 
 // The lumped model answers the same equilibrium at every position of its window, which is the error period: planets and
 // sun are eccentric, and neither is in step with a turn of the carrier. Its largest load sharing is that of 64
@@ -243,27 +147,6 @@ BOOST_AUTO_TEST_CASE(misaligned_spur_stage) {
   }
 }
 
-// Solid gears along their faces against the tables of the same meshes in the lumped model: nothing tilts, the sun is
-// held softly, and one pin stands beside its place. Elements and load steps of the tables leave a percent of the
-// stiffness, of which a tenth of the excess of the load sharing is left.
-BOOST_AUTO_TEST_CASE(solid_faces_share_the_load_as_tables_do) {
-  test::Verification record("annulus statics on solid helical gears", "quasi-static load sharing of annulus run");
-  const test::TemporaryFolder folder("statics_solid");
-  const auto scene = solid_stage();
-  const auto statics = solved(folder, scene);
-  const auto run = test::run_program(folder.path(), "run scene.toml --out out --quiet");
-  BOOST_TEST_REQUIRE(run.status == 0, run.err);
-  const auto summary = Json::parse(read_file(folder.path() / "out/summary.json"));
-  for (const std::string mesh : {"sun_planet", "ring_planet"}) {
-    const double other = summary.at("rings").at("held").at("load_sharing").at(mesh).at("quasi_static").at("value");
-    BOOST_TEST(other > 1.02);
-    record.near("largest load sharing in any position", "",
-                result(statics, mesh + "_static_load_sharing_instantaneous"), other, 0.02 * (other - 1) + 1e-3,
-                "accuracy of the tables");
-    BOOST_TEST(result(statics, mesh + "_static_face_load_factor") > 1.05);
-  }
-}
-
 BOOST_AUTO_TEST_CASE(files_and_warnings) {
   const test::TemporaryFolder folder("statics_4");
   write_file(folder.path() / "scene.toml", helical_stage());
@@ -292,23 +175,6 @@ BOOST_AUTO_TEST_CASE(files_and_warnings) {
   const auto pair = test::run_program(folder.path(), "statics pair.toml --out pair");
   BOOST_TEST(pair.status == 2);
   BOOST_TEST(pair.err.find("planetary stages alone") != std::string::npos, pair.err);
-}
-
-BOOST_AUTO_TEST_CASE(same_on_any_number_of_threads) {
-  const test::TemporaryFolder folder("statics_threads");
-  for (const auto& [name, scene] : {std::pair{"even", helical_stage() + in_space()}, {"solid", solid_stage()}}) {
-    write_file(folder.path() / "scene.toml", scene);
-    std::string first;
-    for (const std::string threads : {"1", "2", "5"}) {
-      const auto outcome = test::run_program(
-          folder.path(), fmt::format("statics scene.toml --quiet --threads {0} -o {1}{0}", threads, name));
-      BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
-      const auto out = folder.path() / (name + threads);
-      const auto all = read_file(out / "statics.json") + read_file(out / "statics/held/bearings.csv");
-      if (first.empty()) first = all;
-      BOOST_TEST((all == first));
-    }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
