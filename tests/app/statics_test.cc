@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(plane_stage_shares_the_load_as_the_lumped_model_does) {
     BOOST_TEST(error < 0.02);
     record.near("largest load sharing in any position", "", entry.at("value").get<double>(),
                 other.at("value").get<double>(), error + 1e-4, "stated error");
-    BOOST_TEST(result(statics, mesh + "_static_face_load_factor") == 1, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(!statics.at("rings").at("held").at("results").contains(mesh + "_static_face_load_factor"));
   }
 }
 

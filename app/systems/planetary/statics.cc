@@ -78,7 +78,10 @@ FigureSet all_figures(const StaticTurn& turn, const std::vector<OtherTurn>& othe
        {std::pair{"sun_planet", &StaticFigures::sun}, {"ring_planet", &StaticFigures::ring}}) {
     add(name, mesh, "load_sharing", &StaticFigures::Mesh::sharing, Course::smooth);
     add(name, mesh, "load_sharing_instantaneous", &StaticFigures::Mesh::sharing_instantaneous, Course::smooth);
-    add(name, mesh, "face_load_factor", &StaticFigures::Mesh::line_load_ratio, Course::with_kinks);
+    // A face of two stations is that of a plane stage, along which nothing is modelled.
+    const auto& stations = mesh == &StaticFigures::sun ? turn.sun_stations : turn.ring_stations;
+    if (stations.size() > 2)
+      add(name, mesh, "face_load_factor", &StaticFigures::Mesh::line_load_ratio, Course::with_kinks);
   }
   return set;
 }

@@ -184,8 +184,13 @@ Section results_section(const StageStatics& statics) {
   for (const auto& ring : statics.rings) table.head.emplace_back(ring.ring);
   for (const auto& spec : static_figures()) {
     std::vector<Text> row = {Text(spec.title + ", " + spec.symbol)};
-    for (const auto& ring : statics.rings) row.emplace_back(measured(ring.figures.figure(spec.key), 1));
-    table.rows.push_back(std::move(row));
+    bool any = false;
+    for (const auto& ring : statics.rings) {
+      const auto* entry = ring.figures.find(spec.key);
+      row.emplace_back(entry != nullptr ? measured(entry->figure, 1) : "–");
+      any = any || entry != nullptr;
+    }
+    if (any) table.rows.push_back(std::move(row));
   }
   return {"results", "Results", table};
 }
@@ -221,7 +226,8 @@ Blocks mesh_plots(const RingStatics& ring) {
       face.series.push_back(std::move(load));
     }
     if (ring.turn.positions.size() > 1) blocks += Pictures{{forces}};
-    blocks += Pictures{{face}, {}, "Of each planet in the position with its most uneven load."};
+    if ((ring.turn.*kind.stations).size() > 2)
+      blocks += Pictures{{face}, {}, "Of each planet in the position with its most uneven load."};
   }
   return blocks;
 }
@@ -300,11 +306,11 @@ Json statics_json(const StageStatics& statics) {
 std::string statics_text(const StageStatics& statics) {
   std::string text;
   for (const auto& ring : statics.rings) {
-    text +=
-        fmt::format("{}{}: {} positions, bodies {}\n", text.empty() ? "" : "\n", ring.ring, ring.turn.positions.size(),
-                    ring.reasons.empty() ? "in the plane" : "in space, because " + ring.reasons.front());
+    text += fmt::format("{}{}: {}, bodies {}\n", text.empty() ? "" : "\n", ring.ring, positions_text(ring),
+                        ring.reasons.empty() ? "in the plane" : "in space, because " + ring.reasons.front());
     for (const auto& spec : static_figures())
-      text += fmt::format("  {:62} {:5} {}\n", spec.title, spec.symbol, measured(ring.figures.figure(spec.key), 1));
+      if (const auto* entry = ring.figures.find(spec.key))
+        text += fmt::format("  {:62} {:5} {}\n", spec.title, spec.symbol, measured(entry->figure, 1));
     for (const auto& b : ring.bearings) {
       text += fmt::format("  {:28} {:9} radial {:>18}", b.name, b.body, force_text(ring, b.radial));
       if (!ring.reasons.empty())
