@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 
 #include "app/compare/compared_run.h"
 #include "app/compare/comparison_page.h"
@@ -220,7 +221,11 @@ void check_command(const Arguments& arguments) {
     throw InputError(arguments.scene + ": has warnings, which --strict refuses");
 }
 
-void tradeoff_command(const Arguments& arguments) {
+namespace {
+
+/// What writes into OUT beside a run: `job` has the scene and its options, `which` are the names of its files.
+void write_beside_runs(const Arguments& arguments, const ResultFolder::Which& which,
+                       const std::function<void(const Scene&, const RunOptions&)>& job) {
   const Scene scene = read_scene_with(arguments.scene, arguments.settings);
   const auto options = run_options(arguments, scene);
   check_out(options.out);
@@ -231,35 +236,32 @@ void tradeoff_command(const Arguments& arguments) {
   remove_unfinished_files(options.out);
   remove_unfinished_files(options.cache);
   folder.begin();
-  const auto trade = measure_tradeoff(scene, options);
-  write_tradeoff(trade, options.out);
-  folder.remove_earlier(is_of_tradeoff);
-  fmt::print("{}\ntable   {}\nreport  {}\n", trade_text(trade), (options.out / "tradeoff.csv").string(),
-             (options.out / "tradeoff.html").string());
+  job(scene, options);
+  folder.remove_earlier(which);
+}
+
+}  // namespace
+
+void tradeoff_command(const Arguments& arguments) {
+  write_beside_runs(arguments, is_of_tradeoff, [](const Scene& scene, const RunOptions& options) {
+    const auto trade = measure_tradeoff(scene, options);
+    write_tradeoff(trade, options.out);
+    fmt::print("{}\ntable   {}\nreport  {}\n", trade_text(trade), (options.out / "tradeoff.csv").string(),
+               (options.out / "tradeoff.html").string());
+  });
 }
 
 void statics_command(const Arguments& arguments) {
-  const Scene scene = read_scene_with(arguments.scene, arguments.settings);
-  const auto options = run_options(arguments, scene);
-  check_out(options.out);
-  auto folder = folder_of(options, scene);
-  folder.check();
-  check_scene(scene, arguments, false);
-  hold(arguments, options);
-  remove_unfinished_files(options.out);
-  remove_unfinished_files(options.cache);
-  folder.begin();
-  const auto statics = make_system(scene)->statics(with_reuse(options));
-  folder.remove_earlier(is_of_statics);
-  for (const auto& warning : by_severity(statics.warnings))
-    if (warning.severity != Severity::note)
-      log::warn(warning.where.empty() ? warning.text : warning.where + ": " + warning.text);
-  if (arguments.json) {
-    fmt::print("{}\n", statics.json.dump(2));
-    return;
-  }
-  if (arguments.quiet) return;
-  fmt::print("{}\nreport  {}\n", statics.text, (options.out / "statics.html").string());
+  write_beside_runs(arguments, is_of_statics, [&](const Scene& scene, const RunOptions& options) {
+    const auto statics = make_system(scene)->statics(with_reuse(options));
+    for (const auto& warning : by_severity(statics.warnings))
+      if (warning.severity != Severity::note)
+        log::warn(warning.where.empty() ? warning.text : warning.where + ": " + warning.text);
+    if (arguments.json)
+      fmt::print("{}\n", statics.json.dump(2));
+    else if (!arguments.quiet)
+      fmt::print("{}\nreport  {}\n", statics.text, (options.out / "statics.html").string());
+  });
 }
 
 void compare_command(const Arguments& arguments) {
