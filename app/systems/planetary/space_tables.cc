@@ -229,7 +229,7 @@ Table statics_table() {
       .absent("32; with eccentric gears or pitch deviations 768, or 96 of solid gears");
   statics.key("mesh_phases", &StaticsInput::phases, "Positions in the mesh cycle that begins at each of them.")
       .from(1, 1000)
-      .absent("one where no stiffness changes in the mesh cycle, otherwise 8");
+      .absent("one where no stiffness changes in the mesh cycle, 4 of solid gears, otherwise 8");
   return statics.done();
 }
 

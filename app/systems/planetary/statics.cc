@@ -131,8 +131,7 @@ StaticSchedule schedule_of(const Scene& scene, const dynamics::SpatialStage& sta
   const auto& wanted = scene.own<SpaceInput>().statics;
   const bool in_cycle = varies_in_cycle(scene.sun_planet) || varies_in_cycle(scene.ring_planet);
   const bool solid = faces.sun || faces.ring;
-  constexpr int usual_phases = 8;
-  const int period = dynamics::period_of(stage);
+  const int usual_phases = solid ? 4 : 8, period = dynamics::period_of(stage);
   const bool errors = stage.plane.error_period() > 1;
   const int usual_places = !errors ? 32 : solid ? 96 : 768;
   return dynamics::places_over(period, wanted.places.value_or(usual_places),
