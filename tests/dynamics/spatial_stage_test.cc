@@ -421,18 +421,18 @@ BOOST_AUTO_TEST_CASE(what_nothing_holds_is_named) {
   s.bearings = {bearing("spline", {Kind::sun}, {}, 0.4, 3e7, 0, 1e6)};
   s.plane.planet_errors.clear();
   // Sun along the axis: the helix turns it as it moves.
-  const auto told = [](const SpatialStage& stage, const std::string& words) {
+  const auto expect_refusal = [](const SpatialStage& stage, const std::string& words) {
     BOOST_CHECK_EXCEPTION((void)at_once(stage), annulus::InputError, [&](const annulus::InputError& e) {
       BOOST_TEST_INFO(e.what());
       return std::string(e.what()).find(words) != std::string::npos;
     });
   };
-  told(s, "sun");
+  expect_refusal(s, "sun");
   s = stages::reliability_stage(7.5 * units::deg);
   for (const double place : {-0.3, 0.3, 0.5}) {
     s.bearings.push_back(bearing("b" + std::to_string(s.bearings.size()), {Kind::carrier}, {}, place, rigid, 1e9));
   }
-  told(s, "is already held rigidly");
+  expect_refusal(s, "is already held rigidly");
 }
 
 // Torque the other way with backlash: the back flanks carry, in the mirrored stage.

@@ -7,7 +7,6 @@
 #include <functional>
 #include <utility>
 
-#include "app/scene/input_place.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/rim_coupling.h"

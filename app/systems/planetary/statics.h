@@ -43,10 +43,10 @@ struct StageStatics {
 /// Stiffness tables first where meshes are computed. Throws what solving throws, with its place in the scene.
 [[nodiscard]] StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, const RunOptions& options);
 
-/// Results of the statics of a stage, their keys beginning with "static_".
+/// Results of the statics of a stage.
 [[nodiscard]] const std::vector<FigureSpec>& static_figures();
 
-/// OUT/<ring>/statics/*.csv, statics.json, statics.html with its pictures.
+/// OUT/statics/<ring>/*.csv, statics.json, statics.html with its pictures.
 void write_statics(const StageStatics& statics, const RunOptions& options);
 [[nodiscard]] std::string statics_text(const StageStatics& statics);
 [[nodiscard]] Json statics_json(const StageStatics& statics);

@@ -155,9 +155,12 @@ StaticTurn solve_turn(const SpatialStage& stage, const StaticSchedule& schedule,
   turn.schedule = schedule;
   turn.positions.resize(schedule.positions());
   const auto phases = static_cast<std::size_t>(schedule.phases);
-  for_each_task(turn.positions.size(), threads, [&](std::size_t i) {
-    turn.positions[i] = solved_position(
-        stage, schedule.cycles[i / phases] + static_cast<double>(i % phases) / static_cast<double>(phases));
+  // Phase by phase: positions at one share what is prepared for it.
+  const std::size_t places = schedule.cycles.size();
+  for_each_task(turn.positions.size(), threads, [&](std::size_t task) {
+    const std::size_t phase = task / places, place = task % places;
+    turn.positions[place * phases + phase] =
+        solved_position(stage, schedule.cycles[place] + static_cast<double>(phase) / static_cast<double>(phases));
   });
   const auto made = assemble(stage, 0);
   for (const auto& bearing : made.bearings) turn.bearing_names.push_back(bearing.name);
@@ -171,13 +174,6 @@ StaticFigures figures_of(const StaticTurn& turn) {
   StaticFigures figures;
   figures.sun = mesh_figures(turn, &StaticPosition::sun_meshes);
   figures.ring = mesh_figures(turn, &StaticPosition::ring_meshes);
-  figures.bearing_force.assign(turn.bearing_names.size(), 0.0);
-  figures.bearing_axial = figures.bearing_force;
-  for (const auto& p : turn.positions)
-    for (std::size_t b = 0; b < p.bearings.size(); ++b) {
-      figures.bearing_force[b] = std::max(figures.bearing_force[b], p.bearings[b].force.head<2>().norm());
-      figures.bearing_axial[b] = std::max(figures.bearing_axial[b], std::abs(p.bearings[b].force.z()));
-    }
   return figures;
 }
 

@@ -71,8 +71,6 @@ struct StaticFigures {
     double line_load_ratio = 0;        ///< K_Hbeta: largest of all positions and planets, but for light meshes
   };
   Mesh sun, ring;
-  std::vector<double> bearing_force{};  ///< N, largest radial force per bearing
-  std::vector<double> bearing_axial{};  ///< N, largest
 };
 [[nodiscard]] StaticFigures figures_of(const StaticTurn& turn);
 
