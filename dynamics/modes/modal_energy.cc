@@ -70,7 +70,7 @@ std::string element_group(const std::string& element) {
   std::string group;
   for (const char c : element)
     if (!std::isdigit(static_cast<unsigned char>(c))) group += c;
-  for (const char* direction : {"_x", "_y", "_u", "_radial", "_tangential", "_along", "_across"})
+  for (const char* direction : {"_x", "_y", "_u", "_radial", "_tangential", "_along", "_across", "_tilt"})
     if (group.ends_with(direction)) return group.substr(0, group.rfind('_'));
   return group;
 }

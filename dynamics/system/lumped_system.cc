@@ -57,9 +57,10 @@ int LumpedSystem::find(const std::string& name) const {
   return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
 }
 
-bool LumpedSystem::is_bearing(int mesh) const {
-  return std::any_of(bearings_.begin(), bearings_.end(),
-                     [mesh](const auto& bearing) { return bearing.first == mesh || bearing.second == mesh; });
+bool LumpedSystem::is_whole_mesh(int mesh) const {
+  return std::none_of(bearings_.begin(), bearings_.end(),
+                      [mesh](const auto& bearing) { return bearing.first == mesh || bearing.second == mesh; }) &&
+         std::none_of(faces_.begin(), faces_.end(), [mesh](const auto& face) { return face.tilt == mesh; });
 }
 
 Eigen::VectorXd LumpedSystem::mesh_vector(int mesh, double t) const {
@@ -104,6 +105,7 @@ LumpedSystem::Workspace LumpedSystem::workspace() const {
        {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.elastic, &w.tangent, &w.approach})
     list->assign(meshes_.size(), 0.0);
   w.across.assign(bearings_.size(), 0.0);
+  w.across_face.assign(faces_.size(), 0.0);
   w.location.resize(meshes_.size());
   const auto even = [](std::size_t size) { return size + size % 2; };
   w.pairs.assign(2 * names_.size() + even(meshes_.size()) + even(compiled_->moving_dofs.size()), 0.0);
@@ -141,6 +143,18 @@ void LumpedSystem::tangent_matrix(const Workspace& w, Eigen::Ref<Eigen::MatrixXd
   }
   for (std::size_t i = 0; i < bearings_.size(); ++i)
     result(bearings_[i].first, bearings_[i].second) = result(bearings_[i].second, bearings_[i].first) = w.across[i];
+  if (faces_.empty()) return;
+  // A tilt changes the force of its own mesh as k_x/k of an approach would, k_x across and k of the mesh alone; what
+  // the coupling does to that change comes back to all tilts.
+  Eigen::MatrixXd tilts = Eigen::MatrixXd::Zero(result.rows(), result.cols());
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    const auto& face = faces_[i];
+    const double share = w.across_face[i] / w.tangent[face.approach];
+    tilts(face.approach, face.tilt) = share;
+    result(face.tilt, face.tilt) = w.tangent[face.tilt] - share * w.across_face[i];
+  }
+  const Eigen::MatrixXd across = result * tilts;
+  result += across + across.transpose() + tilts.transpose() * across;
 }
 
 void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixXd> result, Workspace& w) const {
@@ -179,15 +193,23 @@ double LumpedSystem::energy(double t, const double* y, Workspace& w) const {
   double energy = 0.5 * (v.dot(mass_ * v) + q.dot((stiffness_ + rotating_stiffness_) * q));  // skew part drops out
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     const CompiledMesh& mesh = compiled_->meshes[m];
+    if (mesh.face >= 0 || !is_whole_mesh(static_cast<int>(m))) continue;
     const double g = penetration(mesh, w.contact[m], w.delta[m]);
     energy +=
         mesh.surface ? mesh.surface->energy(table_place(mesh, w.contact[m], t).cycles, g) : 0.5 * w.elastic[m] * g;
   }
   for (const auto& bearing : bearings_) {
     const auto i = static_cast<std::size_t>(bearing.first), j = static_cast<std::size_t>(bearing.second);
-    energy += bearing.law.energy(std::hypot(w.delta[i], w.delta[j])) -
-              0.5 * (w.elastic[i] * w.delta[i] + w.elastic[j] * w.delta[j]);
+    energy += bearing.law.energy(std::hypot(w.delta[i], w.delta[j]));
   }
+  for (const auto& face : faces_)
+    for (const auto& place : face.places) {
+      const auto m = static_cast<std::size_t>(face.approach);
+      const auto [contact, g] = place_state(face, place, w.delta[m], w.delta[face.tilt]);
+      const CompiledMesh& mesh = compiled_->meshes[m];
+      energy += place.weight * (mesh.surface ? mesh.surface->energy(table_place(mesh, contact, t).cycles, g)
+                                             : 0.5 * law_in_contact(mesh, m, contact, g, w).force * g);
+    }
   for (const auto& coupling : compiled_->couplings) {
     auto k = static_cast<std::size_t>(coupling.offset);
     for (const int i : coupling.meshes)
@@ -210,12 +232,19 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
   }
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     const CompiledMesh& mesh = compiled_->meshes[m];
-    const double g = penetration(mesh, w.contact[m], w.delta[m]);
     p.dissipated += acting_damping(mesh, w.contact[m]) * w.delta_rate[m] * w.delta_rate[m];
-    p.supplied += energy_rate(mesh, w.contact[m], t, g, compiled_->rates, w) - w.error_rate[m] * w.force[m];
+    p.supplied -= w.error_rate[m] * w.force[m];
+    if (mesh.face < 0)
+      p.supplied +=
+          energy_rate(mesh, w.contact[m], t, penetration(mesh, w.contact[m], w.delta[m]), compiled_->rates, w);
     for (int i = mesh.first_moving; i < mesh.last_moving; ++i)
       p.supplied += w.factor_rate[i] * q[compiled_->moving[i].dof] * w.force[m];
   }
+  for (const auto& face : faces_)
+    for (const auto& place : face.places) {
+      const auto [contact, g] = place_state(face, place, w.delta[face.approach], w.delta[face.tilt]);
+      p.supplied += place.weight * energy_rate(compiled_->meshes[face.approach], contact, t, g, compiled_->rates, w);
+    }
   for (const auto& coupling : compiled_->couplings) {
     const CouplingMatrix rate = compliance_rate(coupling, t, w);
     CouplingVector force(rate.rows());

@@ -76,6 +76,24 @@ struct BearingElement {
   RadialBearing law;
 };
 
+/// A mesh along its face, as two meshes: the approach in the middle of the face, with the excitation, the errors and
+/// the damping of the whole mesh, and its tilt, by which the flanks approach further at the end of the face. The law of
+/// the whole mesh is spread over places on the face: with the approach a less the errors and the tilt d,
+///
+///   F = sum w_i f(a + z_i d - g_i),   F_tilt = sum w_i z_i f(a + z_i d - g_i),
+///
+/// z_i from -1 to 1, f the force beyond the backlash. Each place has contact of its own, which no integrator looks for:
+/// both forces are continuous. The excitation of the tilt is that of small motions while the whole face carries.
+struct FaceElement {
+  int approach = 0, tilt = 0;           ///< in the order of add_mesh; without backlash of their own
+  std::optional<double> half_backlash;  ///< m; absent: the flanks pull as well
+  struct Place {
+    double z = 0, weight = 0;  ///< the weights add up to 1
+    double gap = 0;            ///< m, of the driving flanks
+  };
+  std::vector<Place> places;
+};
+
 /// A spring with its damper along a coordinate a: force k a^T q + c a^T q', part of K and C. The name states the
 /// machine part (sun_support_x, planet1_bearing_radial, ...); energies and bearing forces are reported under it.
 struct SpringElement {
@@ -106,6 +124,7 @@ class LumpedSystem {
     std::vector<double> elastic;                   ///< per mesh, force without damping of the last evaluation
     std::vector<double> tangent;                   ///< per mesh, dF/d delta of the last evaluation, N/m
     std::vector<double> across;                    ///< per bearing, d elastic of one mesh / d delta of the other, N/m
+    std::vector<double> across_face;               ///< per face, d elastic of the tilt / d delta of the approach, N/m
     std::vector<Contact> contact;                  ///< per mesh
     /// Per mesh: value of a rectangular wave (1 high, 0 low) held up to the next jump; -1: from the time.
     std::vector<signed char> wave;
@@ -136,9 +155,10 @@ class LumpedSystem {
   [[nodiscard]] bool has_moving_vectors() const;                                   ///< does any b change in time?
   [[nodiscard]] const std::vector<MeshCoupling>& couplings() const { return couplings_; }
   [[nodiscard]] const std::vector<BearingElement>& bearings() const { return bearings_; }
-  [[nodiscard]] bool is_bearing(int mesh) const;  ///< whether a mesh is a component of a bearing
+  [[nodiscard]] const std::vector<FaceElement>& faces() const { return faces_; }
+  [[nodiscard]] bool is_whole_mesh(int mesh) const;  ///< neither a component of a bearing nor the tilt of a mesh
   /// Whether the force of some mesh depends on the deflection of another.
-  [[nodiscard]] bool has_coupled_meshes() const { return !couplings_.empty() || !bearings_.empty(); }
+  [[nodiscard]] bool has_coupled_meshes() const { return !couplings_.empty() || !bearings_.empty() || !faces_.empty(); }
 
   [[nodiscard]] Workspace workspace() const;
   /// Sets the contact states from the deflections at (t, q).
@@ -183,6 +203,7 @@ class LumpedSystem {
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;
   std::vector<BearingElement> bearings_;
+  std::vector<FaceElement> faces_;
   std::vector<SpringElement> springs_;
   Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
   Eigen::VectorXd load_;
@@ -199,10 +220,17 @@ class LumpedSystemBuilder {
   /// Adds a plane body (kg) in a frame that turns with `speed` (rad/s): -2 m Omega y', +2 m Omega x' and
   /// -m Omega^2 (x, y).
   void add_rotating_mass(const LinearForm& x, const LinearForm& y, double mass, double speed);
+  /// Adds the tilts (rad) of a round body in that frame, with its inertia (kg m^2) across and about its axis, about
+  /// which it turns with `spin` (rad/s, absolute): M, the gyroscopic moments (I_p spin - 2 I_t speed) phi' and
+  /// speed (I_p spin - I_t speed) phi.
+  void add_tilting_mass(const LinearForm& about_x, const LinearForm& about_y, double across, double about_axis,
+                        double spin, double speed);
   /// Adds a symmetric term (N/m) of the potential: K_Omega += value (a b^T + b a^T)/2.
   void add_rotating_stiffness(const LinearForm& a, const LinearForm& b, double value);
   /// Adds a spring (N/m) and a damper (N s/m) along a coordinate: K += k a a^T, C += c a a^T.
   void add_spring(const LinearForm& coordinate, double stiffness, double damping, const std::string& name = {});
+  /// Adds a force (N/m x `column`) on `row`: K_Omega += value row column^T.
+  void add_circulatory(const LinearForm& row, const LinearForm& column, double value);
   /// Adds the Omega part of a damper (N s/m) to the housing in the turning frame: c (x' - Omega y), c (y' + Omega x).
   void add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping, double speed);
   void add_load(const LinearForm& coordinate, double force);
@@ -213,7 +241,10 @@ class LumpedSystemBuilder {
   void add_mesh_coupling(MeshCoupling coupling);
   /// Makes two meshes that were added before the components of a bearing.
   void add_bearing(BearingElement bearing);
-  /// Throws InputError when a DOF has no mass or a coupling, bearing or moving share does not fit its meshes and DOFs.
+  /// Spreads a mesh that was added before over its face; it may be part of a coupling.
+  void add_face(FaceElement face);
+  /// Throws InputError when a DOF has no mass or a coupling, bearing, face or moving share does not fit its meshes and
+  /// DOFs.
   [[nodiscard]] LumpedSystem build() const;
 
  private:
@@ -224,6 +255,7 @@ class LumpedSystemBuilder {
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;
   std::vector<BearingElement> bearings_;
+  std::vector<FaceElement> faces_;
   std::vector<SpringElement> springs_;
   struct Term {
     LinearForm row, column;

@@ -44,6 +44,22 @@ void LumpedSystemBuilder::add_rotating_mass(const LinearForm& x, const LinearFor
   add_rotating_stiffness(y, y, -mass * speed * speed);
 }
 
+void LumpedSystemBuilder::add_tilting_mass(const LinearForm& about_x, const LinearForm& about_y, double across,
+                                           double about_axis, double spin, double speed) {
+  add_mass(about_x, across);
+  add_mass(about_y, across);
+  const double momentum = about_axis * spin - 2 * across * speed;
+  gyroscopic_.push_back({about_x, about_y, momentum});
+  gyroscopic_.push_back({about_y, about_x, -momentum});
+  const double centrifugal = speed * (about_axis * spin - across * speed);
+  add_rotating_stiffness(about_x, about_x, centrifugal);
+  add_rotating_stiffness(about_y, about_y, centrifugal);
+}
+
+void LumpedSystemBuilder::add_circulatory(const LinearForm& row, const LinearForm& column, double value) {
+  rotating_stiffness_.push_back({row, column, value});
+}
+
 void LumpedSystemBuilder::add_rotating_stiffness(const LinearForm& a, const LinearForm& b, double value) {
   rotating_stiffness_.push_back({a, b, value / 2});
   rotating_stiffness_.push_back({b, a, value / 2});
@@ -58,8 +74,8 @@ void LumpedSystemBuilder::add_spring(const LinearForm& coordinate, double stiffn
 
 void LumpedSystemBuilder::add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping,
                                                       double speed) {
-  rotating_stiffness_.push_back({x, y, -damping * speed});
-  rotating_stiffness_.push_back({y, x, damping * speed});
+  add_circulatory(x, y, -damping * speed);
+  add_circulatory(y, x, damping * speed);
 }
 
 void LumpedSystemBuilder::add_load(const LinearForm& coordinate, double force) {
@@ -79,6 +95,8 @@ void LumpedSystemBuilder::add_mass_coupling(const LinearForm& a, const LinearFor
 void LumpedSystemBuilder::add_mesh_coupling(MeshCoupling coupling) { couplings_.push_back(std::move(coupling)); }
 
 void LumpedSystemBuilder::add_bearing(BearingElement bearing) { bearings_.push_back(bearing); }
+
+void LumpedSystemBuilder::add_face(FaceElement face) { faces_.push_back(std::move(face)); }
 
 namespace {
 
@@ -100,6 +118,7 @@ LumpedSystem LumpedSystemBuilder::build() const {
   system.springs_ = springs_;
   system.couplings_ = couplings_;
   system.bearings_ = bearings_;
+  system.faces_ = faces_;
   assemble_matrices(system);
   check_mass(system);
   system.compiled_ = LumpedSystemCompiler(system).compile();

@@ -33,6 +33,7 @@ struct CompiledMesh {
   int first_tooth = 0, last_tooth = 0;    ///< of Compiled::tooth_errors
   int first_moving = 0, last_moving = 0;  ///< of Compiled::moving
   bool coupled = false;
+  int face = -1;  ///< of LumpedSystem::faces whose approach it is
   SlotTerm ripple;
   double low = 0, high = 0, duty = 0;
   const CurveBundle* table = nullptr;  ///< secant and unloaded transmission error; of Compiled::bundles
@@ -135,6 +136,31 @@ inline ForceSurface::Value back_flank_law(const CompiledMesh& mesh, double t, do
   return {values[0] * g, values[0]};
 }
 
+/// Elastic force and tangent of mesh m at a deflection g beyond the backlash, of flanks in contact.
+inline ForceSurface::Value law_in_contact(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Contact contact,
+                                          double g, const LumpedSystem::Workspace& w) {
+  if (mesh.mirrored && contact == LumpedSystem::Contact::back) return back_flank_law(mesh, w.time, g);
+  return mesh.surface ? mesh.surface->at(w.location[m], g) : ForceSurface::Value{w.stiffness[m] * g, w.stiffness[m]};
+}
+
+/// A place of a face: its contact and its deflection beyond the backlash.
+struct PlaceState {
+  LumpedSystem::Contact contact = LumpedSystem::Contact::open;
+  double g = 0;
+};
+/// At deflections of the approach and the tilt (m).
+inline PlaceState place_state(const FaceElement& face, const FaceElement::Place& place, double approach, double tilt) {
+  using Contact = LumpedSystem::Contact;
+  const double x = approach + place.z * tilt, driving = x - place.gap;
+  if (!face.half_backlash) return {driving >= 0 ? Contact::drive : Contact::back, driving};
+  if (driving > *face.half_backlash) return {Contact::drive, driving - *face.half_backlash};
+  if (x < -*face.half_backlash) return {Contact::back, x + *face.half_backlash};
+  return {};
+}
+
+/// The same for a mesh along its face; `across`: between its approach and its tilt.
+void apply_face(const FaceElement& face, const CompiledMesh& mesh, LumpedSystem::Workspace& w, double& across);
+
 /// Elastic force and tangent by the law of one mesh, from deflection and contact state in the workspace.
 inline void apply_law(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Workspace& w) {
   const auto contact = w.contact[m];
@@ -143,9 +169,7 @@ inline void apply_law(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Wor
     return;
   }
   const double g = penetration(mesh, contact, w.delta[m]);
-  const auto value = mesh.mirrored && contact == LumpedSystem::Contact::back ? back_flank_law(mesh, w.time, g)
-                     : mesh.surface                                          ? mesh.surface->at(w.location[m], g)
-                                    : ForceSurface::Value{w.stiffness[m] * g, w.stiffness[m]};
+  const auto value = law_in_contact(mesh, m, contact, g, w);
   w.elastic[m] = value.force;
   w.tangent[m] = value.tangent;
 }
@@ -156,7 +180,8 @@ void evaluate_compliance(const CompiledCoupling& coupling, double t, LumpedSyste
 CouplingMatrix compliance_rate(const CompiledCoupling& coupling, double t, const LumpedSystem::Workspace& w);
 /// Elastic forces of the coupled meshes from Workspace::approach.
 void solve_coupling(const CompiledCoupling& coupling, const std::vector<CompiledMesh>& meshes,
-                    LumpedSystem::ContactStates states, LumpedSystem::Workspace& w);
+                    const std::vector<FaceElement>& faces, LumpedSystem::ContactStates states,
+                    LumpedSystem::Workspace& w);
 /// d elastic / d approach of the coupled meshes, N/m.
 CouplingMatrix coupled_tangent(const CompiledCoupling& coupling, const LumpedSystem::Workspace& w);
 

@@ -62,6 +62,7 @@ std::shared_ptr<const LumpedSystem::Compiled> LumpedSystemCompiler::compile() {
   compile_moving_shares();
   for (const auto& coupling : system_.couplings()) compile_coupling(coupling);
   for (const auto& bearing : system_.bearings()) compile_bearing(bearing);
+  for (std::size_t i = 0; i < system_.faces().size(); ++i) compile_face(system_.faces()[i], static_cast<int>(i));
   compile_rows();
   return std::move(compiled_);
 }
@@ -204,13 +205,37 @@ void LumpedSystemCompiler::check_uncoupled(const std::string& what, int mesh) co
 void LumpedSystemCompiler::compile_bearing(const BearingElement& bearing) {
   for (const int m : {bearing.first, bearing.second}) {
     check_uncoupled("a bearing", m);
-    if (system_.meshes()[m].half_backlash)
-      throw InputError(
-          fmt::format("mesh {} ({}) is a component of a bearing and has a half backlash of {} m; it must "
-                      "have none",
-                      m, system_.meshes()[m].name, *system_.meshes()[m].half_backlash));
+    check_without_backlash("a bearing", m);
     compiled_->meshes[m].coupled = true;
   }
+}
+
+/// After the couplings, which may have its approach.
+void LumpedSystemCompiler::compile_face(const FaceElement& face, int number) {
+  check_uncoupled("the tilt of a face", face.tilt);
+  const auto& couplings = system_.couplings();
+  const bool in_coupling = std::any_of(couplings.begin(), couplings.end(), [&](const auto& coupling) {
+    return std::count(coupling.meshes.begin(), coupling.meshes.end(), face.approach) > 0;
+  });
+  if (!in_coupling) check_uncoupled("a face", face.approach);
+  for (const int m : {face.approach, face.tilt}) {
+    check_without_backlash("a face", m);
+    compiled_->meshes[m].coupled = true;
+  }
+  compiled_->meshes[face.approach].face = number;
+  double sum = 0;
+  for (const auto& place : face.places) sum += place.weight;
+  constexpr double rounding = 1e-9;
+  if (!(std::abs(sum - 1) < rounding))
+    throw InputError(fmt::format("the weights of the {} places on the face of mesh {} ({}) add up to {}, not to 1",
+                                 face.places.size(), face.approach, system_.meshes()[face.approach].name, sum));
+}
+
+void LumpedSystemCompiler::check_without_backlash(const std::string& what, int mesh) const {
+  const auto& element = system_.meshes()[mesh];
+  if (element.half_backlash)
+    throw InputError(fmt::format("mesh {} ({}) is a part of {} and has a half backlash of {} m; it must have none",
+                                 mesh, element.name, what, *element.half_backlash));
 }
 
 void LumpedSystemCompiler::check_coupling(const MeshCoupling& coupling) const {

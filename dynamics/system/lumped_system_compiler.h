@@ -28,8 +28,10 @@ class LumpedSystemCompiler {
   void compile_coupling(const MeshCoupling& coupling);
   void check_coupling(const MeshCoupling& coupling) const;
   void compile_bearing(const BearingElement& bearing);
+  void compile_face(const FaceElement& face, int number);
   /// That a mesh exists and depends on no other yet.
   void check_uncoupled(const std::string& what, int mesh) const;
+  void check_without_backlash(const std::string& what, int mesh) const;
   void compile_rows();
 
   const LumpedSystem& system_;

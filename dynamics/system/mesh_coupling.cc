@@ -81,7 +81,8 @@ CouplingMatrix compliance_rate(const CompiledCoupling& coupling, double t, const
 // linear meshes take one step and laws two or three. Where contact states follow, the equations have kinks and full
 // steps may cycle between states: after some the steps are shortened.
 void solve_coupling(const CompiledCoupling& coupling, const std::vector<CompiledMesh>& meshes,
-                    LumpedSystem::ContactStates states, LumpedSystem::Workspace& w) {
+                    const std::vector<FaceElement>& faces, LumpedSystem::ContactStates states,
+                    LumpedSystem::Workspace& w) {
   constexpr int steps = 80, full_steps = 20;
   constexpr double accuracy = 1e-13, shortened = 0.7;
   const auto n = static_cast<Eigen::Index>(coupling.meshes.size());
@@ -97,8 +98,13 @@ void solve_coupling(const CompiledCoupling& coupling, const std::vector<Compiled
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto m = static_cast<std::size_t>(coupling.meshes[i]);
       w.delta[m] = w.approach[m] - given[i];
-      if (states == LumpedSystem::ContactStates::following) w.contact[m] = contact_of(meshes[m], w.delta[m]);
-      apply_law(meshes[m], m, w);
+      if (meshes[m].face >= 0) {
+        double across = 0;
+        apply_face(faces[static_cast<std::size_t>(meshes[m].face)], meshes[m], w, across);
+      } else {
+        if (states == LumpedSystem::ContactStates::following) w.contact[m] = contact_of(meshes[m], w.delta[m]);
+        apply_law(meshes[m], m, w);
+      }
       residual[i] = w.elastic[m] - force[i];
       scale = std::max({scale, std::abs(w.elastic[m]), w.stiffness[m] * std::abs(w.approach[m])});
     }

@@ -108,6 +108,30 @@ void apply_bearing(const BearingElement& bearing, LumpedSystem::Workspace& w, do
 
 }  // namespace
 
+void apply_face(const FaceElement& face, const CompiledMesh& mesh, LumpedSystem::Workspace& w, double& across) {
+  using Contact = LumpedSystem::Contact;
+  // Left of the tangents where nothing touches, so that an unloaded body has a place.
+  constexpr double without_contact = 1e-9;
+  const auto i = static_cast<std::size_t>(face.approach), j = static_cast<std::size_t>(face.tilt);
+  w.elastic[i] = w.elastic[j] = across = 0;
+  w.tangent[i] = without_contact * w.stiffness[i];
+  w.tangent[j] = without_contact * w.stiffness[j];
+  w.contact[i] = Contact::open;
+  for (const auto& place : face.places) {
+    const auto [contact, g] = place_state(face, place, w.delta[i], w.delta[j]);
+    if (contact == Contact::open) continue;
+    if (w.contact[i] != Contact::drive) w.contact[i] = contact;
+    const auto value = law_in_contact(mesh, i, contact, g, w);
+    const double force = place.weight * value.force, tangent = place.weight * value.tangent;
+    w.elastic[i] += force;
+    w.elastic[j] += place.z * force;
+    w.tangent[i] += tangent;
+    w.tangent[j] += place.z * place.z * tangent;
+    across += place.z * tangent;
+  }
+  w.contact[j] = w.contact[i];
+}
+
 void LumpedSystem::apply_forces(Workspace& w, ContactStates states) const {
   const Compiled& c = *compiled_;
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
@@ -117,7 +141,14 @@ void LumpedSystem::apply_forces(Workspace& w, ContactStates states) const {
     if (states == ContactStates::following) w.contact[m] = contact_of(mesh, w.delta[m]);
     apply_law(mesh, m, w);
   }
-  for (const auto& coupling : c.couplings) solve_coupling(coupling, c.meshes, states, w);
+  // Couplings of faces solve for the approaches; the tilts are given.
+  for (const auto& face : faces_) {
+    w.delta[face.approach] = w.approach[face.approach];
+    w.delta[face.tilt] = w.approach[face.tilt];
+  }
+  for (const auto& coupling : c.couplings) solve_coupling(coupling, c.meshes, faces_, states, w);
+  for (std::size_t i = 0; i < faces_.size(); ++i)
+    apply_face(faces_[i], c.meshes[faces_[i].approach], w, w.across_face[i]);
   for (std::size_t i = 0; i < bearings_.size(); ++i) apply_bearing(bearings_[i], w, w.across[i]);
   for (std::size_t m = 0; m < c.meshes.size(); ++m)
     w.force[m] = w.elastic[m] + acting_damping(c.meshes[m], w.contact[m]) * w.delta_rate[m];

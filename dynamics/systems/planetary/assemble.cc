@@ -6,19 +6,16 @@
 #include "dynamics/system/lumped_system.h"
 #include "dynamics/system/support.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
+#include "dynamics/systems/planetary/stage_forms.h"
 
 namespace annulus::dynamics {
 
 namespace {
 
-struct PlaneBody {
-  LinearForm x, y, u;
-};
-
 /// `speed`: of the frame its x and y are measured in, for inertia and damping.
-PlaneBody add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const CentralBody& body,
+BodyForms add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const CentralBody& body,
                       const std::string& name, double speed) {
-  PlaneBody c;
+  BodyForms c;
   if (body.support != rigid) {
     c.x = builder.add_dof(name + "_x");
     c.y = builder.add_dof(name + "_y");
@@ -50,10 +47,25 @@ MeshElement bearing_component(const PlanetaryStage& stage, const std::string& na
   return element;
 }
 
+/// Where planet n sits in the carrier.
+struct PlanetSeat {
+  LinearForm radial, translation, tangential;  ///< translation: what of the tangential motion is no rotation
+};
+
+PlanetSeat planet_seat(const PlanetaryStage& stage, const BodyForms& carrier, int n) {
+  const double phi = stage.planet_angles[n];
+  const LinearForm translation = -std::sin(phi) * carrier.x + std::cos(phi) * carrier.y;
+  return {std::cos(phi) * carrier.x + std::sin(phi) * carrier.y, translation, translation + carrier.u};
+}
+
 /// A bearing with play as two elements, along and across the mean pin force. Its stiffness depends on the whole load,
 /// so that the centrifugal force, which else only displaces the planet, acts here.
-void add_bearing_with_play(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const std::string& name,
-                           const PlanetBearing& bearing, const LinearForm& radial, const LinearForm& tangential) {
+void add_bearing_with_play(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const StageForms& bodies, int n) {
+  const auto bearing = stage.planet_bearing(n);
+  const auto name = "planet" + std::to_string(n + 1);
+  const auto seat = planet_seat(stage, bodies.carrier, n);
+  const auto& planet = bodies.planets[static_cast<std::size_t>(n)];
+  const LinearForm radial = planet.x + (-1.0) * seat.radial, tangential = planet.y + (-1.0) * seat.tangential;
   const RadialBearing law(bearing.radial, bearing.play, bearing.pin);
   const double size = stage.mean_pin_force().norm();
   const Eigen::Vector2d along = stage.pin_direction();
@@ -67,20 +79,13 @@ void add_bearing_with_play(LumpedSystemBuilder& builder, const PlanetaryStage& s
   builder.add_load(radial, stage.planet.mass * stage.carrier.radius * speed * speed);
 }
 
-struct Planet : PlaneBody {
-  LinearForm radial_approach, tangential_approach;  ///< of the planet to the pin
-};
-
 /// Planet n: its own DOFs where the bearing gives way, else the carrier's motion at its bearing.
-Planet add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const PlaneBody& carrier, int n) {
+BodyForms add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const BodyForms& carrier, int n) {
   const auto& body = stage.planet;
   const auto name = "planet" + std::to_string(n + 1);
-  const double phi = stage.planet_angles[n];
   const PlanetBearing bearing = stage.planet_bearing(n);
-  const LinearForm radial = std::cos(phi) * carrier.x + std::sin(phi) * carrier.y;
-  const LinearForm translation = -std::sin(phi) * carrier.x + std::cos(phi) * carrier.y;
-  const LinearForm tangential = translation + carrier.u;
-  Planet p;
+  const auto [radial, translation, tangential] = planet_seat(stage, carrier, n);
+  BodyForms p;
   const auto add_translation = [&](double stiffness, const LinearForm& seat, const char* dof, const char* direction) {
     if (stiffness == rigid) return seat;
     LinearForm own = builder.add_dof(name + dof);
@@ -91,8 +96,6 @@ Planet add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, con
   };
   p.x = add_translation(bearing.radial, radial, "_x", "_bearing_radial");
   p.y = add_translation(bearing.tangential, tangential, "_y", "_bearing_tangential");
-  p.radial_approach = p.x + (-1.0) * radial;
-  p.tangential_approach = p.y + (-1.0) * tangential;
   p.u = builder.add_dof(name + "_u");
   builder.add_mass(p.u, body.inertia / (body.radius * body.radius));
 
@@ -127,7 +130,7 @@ double in_mass_of_stage(double coupling, double stage_mass, double elastic_mass)
 
 /// The modes of the ring as DOFs. M couples them with the rigid motions of the ring they contain.
 std::vector<LinearForm> add_ring_modes(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
-                                       const PlaneBody& ring) {
+                                       const BodyForms& ring) {
   std::vector<LinearForm> dofs;
   if (!stage.ring_coupling) return dofs;
   const auto& body = *stage.ring_coupling;
@@ -150,7 +153,7 @@ std::vector<LinearForm> add_ring_modes(LumpedSystemBuilder& builder, const Plane
 /// Shares of the ring's motion in the approach of the mesh at angle psi = phi_n + a_r [HuFangXuShen2021, eq. (16)],
 /// while the carrier turns past the housing: -sin(psi + Omega t) x + cos(psi + Omega t) y + sum of displacement of the
 /// mode at the tooth in mesh x modal amplitude.
-std::vector<MovingShare> ring_shares(const PlanetaryStage& stage, const PlaneBody& ring,
+std::vector<MovingShare> ring_shares(const PlanetaryStage& stage, const BodyForms& ring,
                                      const std::vector<LinearForm>& modes, double psi) {
   std::vector<MovingShare> shares;
   const double speed = stage.carrier_speed;
@@ -172,6 +175,46 @@ MeshCoupling coupling_of(const PlanetaryStage& stage, const std::vector<LinearFo
   return coupling;
 }
 
+StageForms add_bodies_in_plane(LumpedSystemBuilder& builder, const PlanetaryStage& stage) {
+  const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
+  StageForms bodies;
+  bodies.sun = add_central(builder, stage, stage.sun, "sun", speed);
+  bodies.ring = add_central(builder, stage, stage.ring, "ring", ring_in_housing(stage) ? 0 : speed);
+  bodies.carrier = add_central(builder, stage, stage.carrier, "carrier", speed);
+  for (int n = 0; n < stage.planets(); ++n) bodies.planets.push_back(add_planet(builder, stage, bodies.carrier, n));
+  return bodies;
+}
+
+/// Spreads the meshes of a stage in space over their faces, which takes their backlash.
+void spread_meshes(std::vector<MeshElement>& meshes, LumpedSystemBuilder& builder, const PlanetaryStage& stage,
+                   const StageForms& bodies) {
+  double square = 0;
+  for (const auto& place : face_places()) square += place.weight * place.z * place.z;
+  std::vector<MeshElement> tilts;
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const int planets = stage.planets(), n = static_cast<int>(m) % planets;
+    const bool of_sun = static_cast<int>(m) < planets;
+    const auto& [width, middle, gap] = of_sun ? stage.space->sun_face : stage.space->ring_face;
+    auto& mesh = meshes[m];
+    const auto [approach, tilt] = mesh_out_of_plane(stage, bodies, of_sun, n);
+    mesh.b = mesh.b + approach;
+    FaceElement face{static_cast<int>(m), static_cast<int>(meshes.size() + m), mesh.half_backlash, {}};
+    for (std::size_t i = 0; i < face_places().size(); ++i) {
+      const auto& [z, weight] = face_places()[i];
+      face.places.push_back({z, weight, gap.empty() ? 0.0 : gap[i]});
+    }
+    mesh.half_backlash.reset();
+    auto& own = tilts.emplace_back();
+    own.name = mesh.name + "_tilt";
+    own.b = tilt;
+    own.excitation = ConstantStiffness{square * mean_tangent_stiffness(mesh.excitation)};
+    own.damping = square * mesh.damping;
+    own.damping_without_contact = mesh.damping_without_contact;
+    builder.add_face(std::move(face));
+  }
+  for (auto& tilt : tilts) meshes.push_back(std::move(tilt));
+}
+
 double value_or_zero(const std::vector<double>& values, int n) { return values.empty() ? 0.0 : values[n]; }
 
 }  // namespace
@@ -179,11 +222,9 @@ double value_or_zero(const std::vector<double>& values, int n) { return values.e
 LumpedSystem assemble(const PlanetaryStage& stage) {
   stage.check();
   LumpedSystemBuilder builder;
-  const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
   const bool housing = ring_in_housing(stage);
-  const PlaneBody sun = add_central(builder, stage, stage.sun, "sun", speed);
-  const PlaneBody ring = add_central(builder, stage, stage.ring, "ring", housing ? 0 : speed);
-  const PlaneBody carrier = add_central(builder, stage, stage.carrier, "carrier", speed);
+  const StageForms bodies = stage.space ? add_bodies_in_space(builder, stage) : add_bodies_in_plane(builder, stage);
+  const auto& [sun, ring, carrier, planets] = bodies;
   const double as = stage.sun_working_angle, ar = stage.ring_working_angle;
 
   const auto mesh = [&](const std::string& name, LinearForm b, const MeshExcitation& excitation,
@@ -205,23 +246,20 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
     return element;
   };
 
-  std::vector<MeshElement> ring_meshes;
-  std::vector<Planet> planets;
-  planets.reserve(stage.planet_angles.size());
-  for (int n = 0; n < stage.planets(); ++n) planets.push_back(add_planet(builder, stage, carrier, n));
+  std::vector<MeshElement> meshes, ring_meshes;
   const auto ring_modes = add_ring_modes(builder, stage, ring);
   const LinearForm none;
   for (int n = 0; n < stage.planets(); ++n) {
     const double phi = stage.planet_angles[n];
     const auto number = std::to_string(n + 1);
-    const Planet& p = planets[n];
+    const BodyForms& p = planets[n];
     // [HuFangXuShen2021, eqs. (15), (16)]
     const LinearForm sun_b = sun.u + (-std::sin(phi - as)) * sun.x + std::cos(phi - as) * sun.y + p.u +
                              (-std::sin(as)) * p.x + (-std::cos(as)) * p.y;
     const LinearForm ring_b = ring.u + (-std::sin(phi + ar)) * (housing ? none : ring.x) +
                               std::cos(phi + ar) * (housing ? none : ring.y) + (-1.0) * p.u + std::sin(ar) * p.x +
                               (-std::cos(ar)) * p.y;
-    builder.add_mesh(mesh("sun_planet" + number, sun_b, stage.sun_mesh, stage.sun, stage.sun_half_backlash,
+    meshes.push_back(mesh("sun_planet" + number, sun_b, stage.sun_mesh, stage.sun, stage.sun_half_backlash,
                           -value_or_zero(stage.sun_phase_lag, n), sun_mesh_errors(stage, n), stage.sun_tooth_errors,
                           n));
     ring_meshes.push_back(mesh("ring_planet" + number, ring_b, stage.ring_mesh, stage.ring, stage.ring_half_backlash,
@@ -229,12 +267,12 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
                                ring_mesh_errors(stage, n), stage.ring_tooth_errors, n));
     if (housing) ring_meshes.back().moving = ring_shares(stage, ring, ring_modes, phi + ar);
   }
-  for (auto& element : ring_meshes) builder.add_mesh(std::move(element));
+  for (auto& element : ring_meshes) meshes.push_back(std::move(element));
+  if (stage.space) spread_meshes(meshes, builder, stage, bodies);
+  for (auto& element : meshes) builder.add_mesh(std::move(element));
   if (stage.ring_coupling) builder.add_mesh_coupling(coupling_of(stage, ring_modes));
   for (int n = 0; n < stage.planets(); ++n)
-    if (const auto bearing = stage.planet_bearing(n); bearing.play > 0)
-      add_bearing_with_play(builder, stage, "planet" + std::to_string(n + 1), bearing, planets[n].radial_approach,
-                            planets[n].tangential_approach);
+    if (!stage.space && stage.planet_bearing(n).play > 0) add_bearing_with_play(builder, stage, bodies, n);
 
   // The loads from virtual work equal T_c / a with T_c = T_s (1 + z_r/z_s), and T_r / r_r. They are balanced to
   // rounding, so that a stage free to turn does not creep away.

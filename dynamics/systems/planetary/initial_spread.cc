@@ -27,7 +27,7 @@ class StartSampler {
     auto workspace = system_.workspace();
     equilibrium_ = solver.solve(0, workspace);
     for (std::size_t m = 0; m < workspace.force.size(); ++m)
-      if (!system_.is_bearing(static_cast<int>(m)))
+      if (system_.is_whole_mesh(static_cast<int>(m)))
         size_ = std::max(size_, options.factor * std::abs(workspace.force[m]) / workspace.stiffness[m]);
     for (const auto& mode : modes(stage).modes)
       if (mode.frequency == 0) rigid_.push_back(mode.shape);

@@ -76,11 +76,12 @@ KindSorter::KindSorter(const LumpedSystem& system, int planets) : mass_(system.m
     r[i] = std::sqrt(mass_(i, i));
     return r;
   };
+  const std::vector<std::string> directions{"_x", "_y", "_u", "_z", "_tiltx", "_tilty"};
   for (const std::string body : {"sun", "ring", "carrier"})
-    for (const std::string direction : {"_x", "_y", "_u"})
+    for (const auto& direction : directions)
       if (const int i = system.find(body + direction); i >= 0)
-        (direction == "_u" ? rotation : translation).push_back(row(i));
-  for (const std::string direction : {"_x", "_y", "_u"}) {
+        (direction == "_u" || direction == "_z" ? rotation : translation).push_back(row(i));
+  for (const auto& direction : directions) {
     std::vector<int> index;
     for (int p = 1; p <= planets; ++p)
       if (const int i = system.find("planet" + std::to_string(p) + direction); i >= 0) index.push_back(i);
@@ -138,12 +139,12 @@ void KindSorter::separate_multiples(std::vector<Mode>& modes, const Same& same) 
 
 }  // namespace
 
-std::string to_string(ModeKind kind) {
+std::string to_string(ModeKind kind, bool in_space) {
   switch (kind) {
     case ModeKind::rotational:
-      return "rotational";
+      return in_space ? "rotational-axial" : "rotational";
     case ModeKind::translational:
-      return "translational";
+      return in_space ? "translational-tilting" : "translational";
     case ModeKind::planet:
       return "planet";
     case ModeKind::mixed:

@@ -9,14 +9,15 @@
 
 namespace annulus::dynamics {
 
-/// Kinds of modes of equally spaced planets [LinParker1999].
+/// Kinds of modes of equally spaced planets [LinParker1999], in space [EritenelParker2009].
 enum class ModeKind {
-  rotational,     ///< central bodies only turn, all planets move equally
-  translational,  ///< central bodies do not turn; in pairs from three planets on
+  rotational,     ///< central bodies only turn (in space: and move along the axis), all planets move equally
+  translational,  ///< central bodies do neither (in space: but tilt); in pairs from three planets on
   planet,         ///< central bodies stand still, planets move differently
   mixed           ///< none of them: planets not equally spaced, or a single one
 };
-[[nodiscard]] std::string to_string(ModeKind kind);
+/// In space "rotational-axial" and "translational-tilting".
+[[nodiscard]] std::string to_string(ModeKind kind, bool in_space = false);
 
 /// The modes of a stage and the kind of each, `kinds[i]` that of `modes[i]`.
 struct PlanetaryModes : Modes {

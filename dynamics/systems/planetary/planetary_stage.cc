@@ -106,6 +106,9 @@ void add(std::vector<HarmonicError>& list, double sign, const Deviation& deviati
 
 }  // namespace
 
+double PlanetaryStage::sun_speed() const { return carrier_speed + rate_of_sun(*this); }
+double PlanetaryStage::planet_speed() const { return carrier_speed + rate_of_planet(*this); }
+
 // A displacement d of the planet's toothing reduces the deflection of the sun mesh by d . n_s, n_s = (-sin(phi_n -
 // a_s), cos(phi_n - a_s)). With delta = ... - e this is e = +|d| sin(angle of d - phi_n + a_s). A displacement of the
 // sun increases it: e = -... The ring mesh likewise with n_r = (-sin(phi_n + a_r), cos(phi_n + a_r)).
@@ -235,6 +238,10 @@ void PlanetaryStage::check() const {
   dynamics::check(sun_mesh, "sun-planet mesh");
   dynamics::check(ring_mesh, "ring-planet mesh");
   if (ring_coupling) check_coupling(*ring_coupling, *this);
+  if (space) space->check(planets());
+  if (space && ring_coupling && !ring_coupling->modes.empty())
+    throw InputError(fmt::format("a ring that moves along the axis and tilts has none of its {} elastic modes",
+                                 ring_coupling->modes.size()));
   if (sun_half_backlash) check_not_negative(*sun_half_backlash, "half backlash of the sun meshes");
   if (ring_half_backlash) check_not_negative(*ring_half_backlash, "half backlash of the ring meshes");
   check_not_negative(mesh_damping_ratio, "mesh damping ratio");

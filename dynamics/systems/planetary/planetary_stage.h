@@ -8,6 +8,7 @@
 #include "core/ring_coupling.h"
 #include "dynamics/system/mesh_excitation.h"
 #include "dynamics/system/support.h"
+#include "dynamics/systems/planetary/stage_space.h"
 #include "geometry/power_flow.h"
 
 namespace annulus::geometry {
@@ -71,6 +72,8 @@ struct PlanetBearing {
 ///   delta_sn = u_s - x_s sin(phi_n - a_s) + y_s cos(phi_n - a_s) + u_n - x_n sin a_s - y_n cos a_s - e_sn     (15)
 ///   delta_rn = u_r - x_r sin(phi_n + a_r) + y_r cos(phi_n + a_r) - u_n + x_n sin a_r - y_n cos a_r - e_rn     (16)
 ///
+/// With `space`, further coordinates act as in SpatialStage, whose delta is cos(base helix angle) times this one.
+///
 /// delta > 0 presses the flanks together; x_n is radial and y_n tangential. A value type: change it and assemble it
 /// again.
 struct PlanetaryStage {
@@ -125,6 +128,10 @@ struct PlanetaryStage {
   /// -m Omega^2 y_n makes the rotation drift away exponentially.
   bool rotating_frame = true;
 
+  /// Bodies that move along the axis and tilt; absent: the stage is plane. `support` and `planet_bearings` then have no
+  /// effect, and the ring has no modes. A mesh is spread over its face (FaceElement).
+  std::optional<StageSpace> space;
+
   [[nodiscard]] const CentralBody& body(geometry::StageMember member) const { return this->*body_of(member); }
   [[nodiscard]] CentralBody& body(geometry::StageMember member) { return this->*body_of(member); }
   [[nodiscard]] PlanetBearing planet_bearing(int n) const;
@@ -134,6 +141,8 @@ struct PlanetaryStage {
   /// Its unit vector, along which bearings with play have their first element; tangential without a force.
   [[nodiscard]] Eigen::Vector2d pin_direction() const;
   [[nodiscard]] int planets() const { return static_cast<int>(planet_angles.size()); }
+  [[nodiscard]] double sun_speed() const;        ///< rad/s, counter-clockwise
+  [[nodiscard]] double planet_speed() const;     ///< rad/s, counter-clockwise, in the housing
   [[nodiscard]] double mesh_rate() const;        ///< Hz: z_r (Omega_c - Omega_r) / 2 pi
   [[nodiscard]] double mesh_frequency() const;   ///< Hz: |mesh_rate|
   [[nodiscard]] double mean_mesh_force() const;  ///< N: T_s / (N r_bs), of every sun and ring mesh
@@ -176,7 +185,8 @@ void set_kinematics(PlanetaryStage& stage, const geometry::PlanetarySet& set);
 /// The stage as elements. DOFs in the order sun, ring, carrier, planet1 ... planetN, each with x, y, u unless rigid,
 /// named sun_x, sun_y, sun_u, ..., planet1_x, ..., then ring_mode1, ... Meshes: sun_planet1 ... sun_planetN,
 /// ring_planet1 ...; then planet1_bearing_along, planet1_bearing_across (the mean pin force) ... of bearings with play.
-/// Their planets are loaded by their centrifugal forces. Throws what `check` throws.
+/// Their planets are loaded by their centrifugal forces. In space: the DOFs of add_bodies_in_space(), and behind all
+/// meshes sun_planet1_tilt ... ring_planet1_tilt ..., the tilts of their faces. Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const PlanetaryStage& stage);
 
 }  // namespace annulus::dynamics

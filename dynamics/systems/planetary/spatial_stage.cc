@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "dynamics/spatial/elastic_laws.h"
+#include "dynamics/system/lumped_system.h"
 
 namespace annulus::dynamics {
 
@@ -143,7 +144,7 @@ class Assembly {
   }
 
   void add_bearing(const StageBearing& b) {
-    StageMechanism::Bearing made{b.name, b.body, b.frame, b.place, frame_axes(stage_, b.frame, b.body, time_)};
+    StageMechanism::Bearing made{b.name, b.body, b.on, b.frame, b.place, frame_axes(stage_, b.frame, b.body, time_)};
     if (b.matrix) {
       const std::vector<int> coordinates = space_ ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 1};
       const auto count = static_cast<Eigen::Index>(coordinates.size());

@@ -15,20 +15,6 @@
 
 namespace annulus::dynamics {
 
-/// A body of a stage; planets and their pins by number.
-struct StageBody {
-  enum class Kind { housing, sun, ring, carrier, planet, pin };
-  Kind kind = Kind::housing;
-  int planet = 0;
-  bool operator==(const StageBody&) const = default;
-};
-
-/// Frames in which bearings, loads and results are stated. z points along the axis in all of them.
-///
-/// carrier: x towards planet 0. housing: that of the carrier at time 0. planet: x radially outwards through the
-/// planet's axis and y tangential, counter-clockwise.
-enum class StageFrame { carrier, housing, planet };
-
 /// A bearing between two bodies in a place on the axis of the first: force and moment from the displacement (x, y, z)
 /// and the tilt (about x, y) of `body` against `on` there. It has no torque about the axis.
 struct StageBearing {
@@ -132,7 +118,7 @@ struct StageMechanism {
   /// A bearing, or the support that a body without one has.
   struct Bearing {
     std::string name;
-    StageBody body;
+    StageBody body, on;
     StageFrame frame = StageFrame::housing;
     double place = 0;                                    ///< m, z
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of its frame, as columns

@@ -1,0 +1,19 @@
+#pragma once
+
+namespace annulus::dynamics {
+
+/// A body of a stage; planets and their pins by number.
+struct StageBody {
+  enum class Kind { housing, sun, ring, carrier, planet, pin };
+  Kind kind = Kind::housing;
+  int planet = 0;
+  bool operator==(const StageBody&) const = default;
+};
+
+/// Frames in which bearings, loads and results are stated. z points along the axis in all of them.
+///
+/// carrier: x towards planet 0. housing: that of the carrier at time 0. planet: x radially outwards through the
+/// planet's axis and y tangential, counter-clockwise.
+enum class StageFrame { carrier, housing, planet };
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,66 @@
+#include "dynamics/systems/planetary/stage_space.h"
+
+#include <fmt/format.h>
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <utility>
+
+#include "core/errors.h"
+#include "dynamics/system/input_checks.h"
+
+namespace annulus::dynamics {
+
+void StageSpace::check(int planets) const {
+  for (const auto& [inertia, name] : {std::pair{tilt_inertia.sun, "sun"},
+                                      {tilt_inertia.ring, "ring"},
+                                      {tilt_inertia.carrier, "carrier"},
+                                      {tilt_inertia.planet, "planet"}})
+    check_positive(inertia, fmt::format("tilting inertia of the {}", name));
+  for (const auto& [face, name] : {std::pair{&sun_face, "sun"}, {&ring_face, "ring"}}) {
+    check_positive(face->width, fmt::format("face width of the {} meshes", name));
+    if (!face->gap.empty() && face->gap.size() != face_places().size())
+      throw InputError(fmt::format("the face of the {} meshes has {} gaps for {} places", name, face->gap.size(),
+                                   face_places().size()));
+  }
+  const auto check_body = [&](const StageBody& body, const std::string& what) {
+    if (body.kind == StageBody::Kind::planet && (body.planet < 0 || body.planet >= planets))
+      throw InputError(fmt::format("{} names planet {} of {}", what, body.planet + 1, planets));
+    if (body.kind == StageBody::Kind::pin) throw InputError(what + " names a pin, which is no body of the dynamics");
+  };
+  for (const auto& b : bearings) {
+    check_body(b.body, "bearing '" + b.name + "'");
+    check_body(b.on, "bearing '" + b.name + "'");
+    if (!b.stiffness.allFinite() || !b.preload.allFinite())
+      throw InputError(fmt::format("bearing '{}' has a stiffness or force that is not finite", b.name));
+    if (b.on.kind == StageBody::Kind::planet || b.body.kind == StageBody::Kind::housing)
+      throw InputError(fmt::format("bearing '{}' supports the housing or stands on a planet", b.name));
+  }
+  for (const auto& load : loads) check_body(load.body, "a load");
+}
+
+const std::vector<FacePlace>& face_places() {
+  using Rule = boost::math::quadrature::gauss<double, 20>;
+  static const std::vector<FacePlace> places = [] {
+    std::vector<FacePlace> list;
+    for (std::size_t i = Rule::abscissa().size(); i-- > 0;)
+      list.push_back({-Rule::abscissa()[i], Rule::weights()[i] / 2});
+    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i)
+      list.push_back({Rule::abscissa()[i], Rule::weights()[i] / 2});
+    return list;
+  }();
+  return places;
+}
+
+LinearBearing::Stiffness to_place(double place) {
+  LinearBearing::Stiffness move = LinearBearing::Stiffness::Identity();
+  move(0, 4) = place;
+  move(1, 3) = -place;
+  return move;
+}
+
+LinearBearing::Stiffness moved_along_axis(const LinearBearing::Stiffness& stiffness, double place) {
+  const auto move = to_place(place);
+  return move.transpose() * stiffness * move;
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "dynamics/systems/planetary/stage_bodies.h"
+
+namespace annulus::dynamics {
+
+/// A bearing for small motions about its working point, in a place on the axis of `body`. Its coordinates d are the
+/// displacement (x, y, z; m) and the tilt (about x, y; rad) of `body` against `on` there, in the axes of the body:
+/// radial, tangential and axial for planets, those of the carrier for others. It acts on the body with -(K d + f).
+struct LinearBearing {
+  using Stiffness = Eigen::Matrix<double, 5, 5>;
+  using Vector = Eigen::Matrix<double, 5, 1>;
+  std::string name;
+  StageBody body, on;                       ///< `on`: the housing or a central body
+  double place = 0;                         ///< m, z
+  Stiffness stiffness = Stiffness::Zero();  ///< K, symmetric: N/m, N, N m/rad; 0 in rigid coordinates
+  std::array<bool, 5> rigid{};              ///< these coordinates stay 0; of central bodies only against the housing
+  Vector preload = Vector::Zero();          ///< f: N, N m
+};
+
+/// Force (N) in the middle of the face and moment (N m) on a body, in its axes.
+struct SpaceLoad {
+  StageBody body;
+  Eigen::Matrix<double, 6, 1> load = Eigen::Matrix<double, 6, 1>::Zero();
+};
+
+/// What a stage has beside that of the plane (PlanetaryStage) where its bodies move along the axis and tilt. All of its
+/// supports but the torsional ones are `bearings`.
+struct StageSpace {
+  double base_helix_angle = 0;  ///< rad, signed: > 0 for right-handed planets
+  /// m, of the working pitch points from the planets' axes.
+  double planet_working_radius_sun = 0, planet_working_radius_ring = 0;
+  struct Face {
+    double width = 0, middle = 0;  ///< m, of the common face; `middle`: its z
+    /// m, of the driving flanks before deformation, in the transverse section, at face_places(); empty: none.
+    std::vector<double> gap{};
+  };
+  Face sun_face, ring_face;
+  struct TiltInertia {
+    double sun = 0, ring = 0, carrier = 0, planet = 0;  ///< kg m^2, about axes across the body's own
+  };
+  TiltInertia tilt_inertia;
+  std::vector<LinearBearing> bearings;
+  std::vector<SpaceLoad> loads;
+
+  /// Throws InputError with name and value of the quantity that cannot be used.
+  void check(int planets) const;
+};
+
+/// Places at which the load along a face is found, from -1 to 1 (end to end), those of Gauss, and their weights, which
+/// add up to 1. A straight approach of flanks that carry all over gives exact forces and moments; where the contact
+/// ends between two places they are within 1 %.
+struct FacePlace {
+  double z = 0, weight = 0;
+};
+[[nodiscard]] const std::vector<FacePlace>& face_places();
+
+/// A stiffness at z = `place` (m) as it is at z = 0.
+[[nodiscard]] LinearBearing::Stiffness moved_along_axis(const LinearBearing::Stiffness& stiffness, double place);
+/// d at z = `place` from d at z = 0.
+[[nodiscard]] LinearBearing::Stiffness to_place(double place);
+
+}  // namespace annulus::dynamics
