@@ -17,6 +17,23 @@ bool numeric(const Parameter& p) {
 
 bool applies(const Scene& scene, const Parameter& p) { return find_parameter(p.key(), schema(scene.stage.kind)); }
 
+/// Names of the tables of an array, in their order; empty for other tables and arrays without names.
+std::vector<std::string> names_in(const Scene& scene, const Table& table) {
+  std::vector<std::string> names;
+  if (!table.repeated || is_study_table(table.path)) return names;
+  if (table.path == "ring") {  // named by their number where the scene does not
+    for (const auto& ring : scene.rings) names.push_back(ring.name);
+    return names;
+  }
+  for (const auto& input : scene.inputs) {
+    const auto* name = std::get_if<std::string>(&input.value);
+    if (input.key != table.path + ".name" || name == nullptr) continue;
+    names.resize(std::max(names.size(), input.entry + 1));
+    names[input.entry] = *name;
+  }
+  return names;
+}
+
 /// Every path the scene knows, lists without their index.
 std::vector<std::string> all_paths(const Scene& scene) {
   std::vector<std::string> paths;
@@ -24,8 +41,7 @@ std::vector<std::string> all_paths(const Scene& scene) {
     for (const auto& p : table.parameters) {
       if (!numeric(p)) continue;
       paths.push_back(p.key());
-      if (p.table != "ring") continue;
-      for (const auto& ring : scene.rings) paths.push_back("ring." + ring.name + "." + p.name);
+      for (const auto& name : names_in(scene, table)) paths.push_back(table.path + "." + name + "." + p.name);
     }
   }
   return paths;
@@ -48,29 +64,31 @@ InputError unknown(const Scene& scene, const std::string& path, const std::strin
                                 did_you_mean(key, all_paths(scene), "; see `annulus explain`")));
 }
 
-/// Rings named by "ring.NAME.key" (a name may hold dots), or all that give "ring.key"; sets the schema key.
-std::vector<std::size_t> find_rings(const Scene& scene, const std::string& path, std::string& key) {
-  std::vector<std::size_t> rings;
-  for (std::size_t i = 0; i < scene.rings.size(); ++i) {
-    const std::string prefix = "ring." + scene.rings[i].name + ".";
-    if (!key.starts_with(prefix) || !find_parameter("ring." + key.substr(prefix.size()))) continue;
-    key = "ring." + key.substr(prefix.size());
+/// Tables of an array by "array.NAME.key" (a name may hold dots), or all that give "array.key"; sets the schema key.
+std::vector<std::size_t> find_tables(const Scene& scene, const std::string& path, std::string& key,
+                                     const Table& array) {
+  const auto names = names_in(scene, array);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string prefix = array.path + "." + names[i] + ".";
+    if (!key.starts_with(prefix) || !find_parameter(array.path + "." + key.substr(prefix.size()))) continue;
+    key = array.path + "." + key.substr(prefix.size());
     return {i};
   }
   const Parameter* p = find_parameter(key);
   if (!p) throw unknown(scene, path, key);
+  std::vector<std::size_t> found;
   const auto add = [&](const auto& is_wanted) {
     for (const auto& input : scene.inputs)
-      if (input.key == key && is_wanted(input)) rings.push_back(input.entry);
+      if (input.key == key && is_wanted(input)) found.push_back(input.entry);
   };
   add([](const Input& input) { return input.origin == Origin::scene; });
-  // A default holds for every ring that has it.
-  if (rings.empty() && p->presence == Parameter::Presence::defaulted)
+  // A default holds for every table that has it.
+  if (found.empty() && p->presence == Parameter::Presence::defaulted)
     add([](const Input& input) { return !std::holds_alternative<std::monostate>(input.value); });
-  if (rings.empty())
-    throw InputError(
-        fmt::format("{}: no ring of this scene has this key; ring.NAME.{} sets it for one ring", path, p->name));
-  return rings;
+  if (found.empty())
+    throw InputError(fmt::format("{}: no {} of this scene has this key; {}.NAME.{} sets it for one {}", path,
+                                 array.path, array.path, p->name, array.path));
+  return found;
 }
 
 /// From 0. `meaning`: of the index, for messages.
@@ -92,7 +110,9 @@ bool has_one_per_planet(const Parameter& p) {
 InputTarget find_input(const Scene& scene, const std::string& path) {
   auto [key, index] = split(path);
   InputTarget target;
-  if (key.starts_with("ring.")) target.rings = find_rings(scene, path, key);
+  const auto* table = find_table(key.substr(0, key.find('.')), schema(scene.stage.kind));
+  if (table != nullptr && table->repeated && !is_study_table(table->path))
+    (table->path == "ring" ? target.rings : target.tables) = find_tables(scene, path, key, *table);
   target.parameter = find_parameter(key);
   if (!target.parameter || !numeric(*target.parameter) || !applies(scene, *target.parameter))
     throw unknown(scene, path, key);
@@ -114,7 +134,7 @@ InputTarget find_input(const Scene& scene, const std::string& path) {
 }
 
 std::optional<double> input_value(const Scene& scene, const InputTarget& target, std::size_t ring) {
-  const Input* input = scene.find(target.parameter->key(), target.rings.empty() ? 0 : ring);
+  const Input* input = scene.find(target.parameter->key(), target.rings.empty() ? target.entries().front() : ring);
   if (!input) return std::nullopt;
   if (const auto* v = std::get_if<long>(&input->value)) return static_cast<double>(*v);
   if (const auto* v = std::get_if<double>(&input->value)) return *v;

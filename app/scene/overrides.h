@@ -15,6 +15,7 @@ namespace annulus::app {
 ///     mesh.sun_planet.mean_N_per_m
 ///     ring.pins                                  of every ring that gives it
 ///     ring.pinned.pins                           of the ring 'pinned'
+///     bearing.spline.tilt_Nm_per_rad             of the table 'spline'; so for every array of tables with names
 ///     errors.planet_eccentricity_phase_deg[2]    of planet 2, counted from 1
 struct Override {
   std::string input;
@@ -26,11 +27,15 @@ struct Override {
 struct InputTarget {
   const Parameter* parameter = nullptr;
   std::vector<std::size_t> rings;    ///< which rings; empty for all other tables
+  std::vector<std::size_t> tables;   ///< which tables of another array; empty for single tables
   std::optional<std::size_t> index;  ///< within a list, from 0
   std::vector<double> list{};        ///< the present one, of several rings the shortest
 
   /// Which tables of an array have the input.
-  [[nodiscard]] std::vector<std::size_t> entries() const { return rings.empty() ? std::vector<std::size_t>{0} : rings; }
+  [[nodiscard]] std::vector<std::size_t> entries() const {
+    if (!rings.empty()) return rings;
+    return tables.empty() ? std::vector<std::size_t>{0} : tables;
+  }
 };
 
 /// Throws InputError, with the nearest valid path, when the scene has no such numeric input.

@@ -7,7 +7,8 @@ namespace {
 
 constexpr const char* path_meaning =
     "the table and key of an input, such as \"supports.planet_N_per_m\" or \"mesh.sun_planet.mean_N_per_m\". "
-    "\"ring.pins\" means the key of every ring that has it, \"ring.NAME.pins\" the key of one ring. "
+    "\"ring.pins\" means the key of every ring that has it, \"ring.NAME.pins\" the key of one ring; so for "
+    "[[bearing]] and [[load]]. "
     "\"errors.planet_eccentricity_um[2]\" means the value of planet 2, counted from 1.";
 
 const std::vector<Choice<SweepScale>> scales = {{"linear", SweepScale::linear},

@@ -23,7 +23,7 @@ constexpr const char *cached_responses = "responses", *cached_effects = "couplin
 std::optional<CouplingEffect> effect_of_coupling(const Scene& scene, dynamics::PlanetaryStage stage,
                                                  const MeshResult& sun_mesh, const MeshResult& ring_mesh,
                                                  const std::string& name, const RunOptions& options) {
-  if (!ring_mesh.coupling || is_negligible(scene, *ring_mesh.coupling)) return std::nullopt;
+  if (!ring_mesh.coupling || is_negligible(scene, *ring_mesh.coupling) || stage.space) return std::nullopt;
   stage.ring_coupling = taken_coupling(*ring_mesh.coupling, RimCoupling::elastic);
   const auto simulation = simulation_options(scene, stage);
   const auto id = response_id(stage, simulation, sun_mesh, ring_mesh);

@@ -74,7 +74,7 @@ ModelWays planetary_ways(const Scene& scene, const GearGeometry& geometry, std::
     of.add_changed("coupling", how, changed, samples);
   };
   if (stage.ring_coupling) coupled("planets not coupled through the ring", nullptr, finest_samples);
-  if (wheel.coupling && !wheel.coupling->coupling.modes.empty())
+  if (wheel.coupling && !wheel.coupling->coupling.modes.empty() && !stage.space)
     coupled("ring with its elastic modes", taken_coupling(*wheel.coupling, RimCoupling::elastic), 64);
   ways.others = of.list();
   return ways;

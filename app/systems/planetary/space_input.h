@@ -41,6 +41,10 @@ struct GravityInput {
   double sun = 0, planet = 0, ring = 0, carrier = 0;  ///< m, centres of mass on the axes
 };
 
+struct TiltInertiaInput {
+  std::optional<double> sun, ring, carrier, planet;
+};
+
 struct StaticsInput {
   std::optional<int> places;
   std::optional<int> phases;
@@ -51,6 +55,7 @@ struct SpaceInput {
   std::vector<BearingInput> bearings;
   std::vector<LoadInput> loads;
   std::optional<GravityInput> gravity;
+  TiltInertiaInput tilt_inertia;
   StaticsInput statics;
 
   [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity.has_value(); }

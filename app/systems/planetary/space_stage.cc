@@ -44,7 +44,7 @@ std::vector<StageBody> bodies_of(const Scene& scene, Body kind, const std::optio
 
 /// "rows", of planets one by one "rows planet2".
 std::string name_of(const std::string& name, const StageBody& body, bool of_all) {
-  return of_all ? fmt::format("{} {}", name, dynamics::SpatialStage::name_of(body)) : name;
+  return of_all ? fmt::format("{} {}", name, dynamics::name_of_body(body)) : name;
 }
 
 void add_bearings(const Scene& scene, dynamics::SpatialStage& stage) {
@@ -160,17 +160,26 @@ std::vector<double> gaps_along(const geometry::GearPair& pair, double misalignme
   return gaps;
 }
 
-/// The place of a face, and whether it differs between its ends.
-StageFace place_of_face(const Scene& scene, const geometry::GearPair& pair, const MeshInput& input,
-                        double misalignment) {
-  StageFace face;
+constexpr double place_rounding = 1e-9;  // of widths and offsets in millimetres
+
+/// m, z of the middle of the common face.
+double place_of_face(const geometry::GearPair& pair) {
   const auto common = pair.common_face();
   const auto& p = pair.pinion().parameters();
-  face.middle = p.axial_offset - p.face_width / 2 + common.pinion.below + common.width / 2;
-  constexpr double rounding = 1e-9;  // of widths and offsets in millimetres
-  if (std::abs(face.middle) < rounding * common.width) face.middle = 0;
+  const double middle = p.axial_offset - p.face_width / 2 + common.pinion.below + common.width / 2;
+  return std::abs(middle) < place_rounding * common.width ? 0 : middle;
+}
+
+/// A computed table has its modifications and misalignment in its stiffness.
+bool gaps_in_table(const MeshInput& input) { return input.stiffness == StiffnessShape::computed; }
+
+/// A face without its law.
+StageFace bare_face(const Scene& scene, const geometry::GearPair& pair, const MeshInput& input, double misalignment) {
+  StageFace face;
+  const auto common = pair.common_face();
+  face.middle = place_of_face(pair);
   const auto gaps = gaps_along(pair, misalignment, {-common.width / 2, common.width / 2});
-  face.symmetric = std::abs(gaps[0] - gaps[1]) <= rounding * units::mm;
+  face.symmetric = std::abs(gaps[0] - gaps[1]) <= place_rounding * units::mm;
   face.backlash = backlash_of(scene, input, pair);
   return face;
 }
@@ -188,9 +197,8 @@ void set_law(StageFace& face, const geometry::GearPair& pair, const MeshInput& i
              const std::shared_ptr<const fem::SolidFace>& solid, double mesh_force) {
   const double c = std::cos(pair.pinion().base_helix_angle());
   const auto stations = stations_of(pair, stretches);
-  // A computed table has its modifications and misalignment in its stiffness.
-  const bool in_table = input.stiffness == StiffnessShape::computed;
-  const auto gaps = in_table ? std::vector<double>(stations.size(), 0.0) : gaps_along(pair, misalignment, stations);
+  const auto gaps =
+      gaps_in_table(input) ? std::vector<double>(stations.size(), 0.0) : gaps_along(pair, misalignment, stations);
   face.law = [=](double phase, StageFace::Flank flank) -> std::shared_ptr<const FaceLaw> {
     const bool back = flank == StageFace::Flank::back;
     if (solid && !back) return solid->at(phase, mesh_force / c);
@@ -225,11 +233,24 @@ dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geo
   stage.base_helix_angle = planet.helix_angle() == 0 ? 0.0 : planet.base_helix_angle();
   stage.planet_working_radius_sun = planet.base_radius() / std::cos(set.sun_mesh().working_pressure_angle());
   stage.planet_working_radius_ring = planet.base_radius() / std::cos(set.ring_mesh().working_pressure_angle());
-  stage.sun_face = place_of_face(scene, set.sun_mesh(), scene.sun_planet, scene.errors.sun_planet_misalignment);
-  stage.ring_face = place_of_face(scene, set.ring_mesh(), scene.ring_planet, scene.errors.ring_planet_misalignment);
+  stage.sun_face = bare_face(scene, set.sun_mesh(), scene.sun_planet, scene.errors.sun_planet_misalignment);
+  stage.ring_face = bare_face(scene, set.ring_mesh(), scene.ring_planet, scene.errors.ring_planet_misalignment);
   add_bearings(scene, stage);
   add_loads(scene, ring, stage);
   return stage;
+}
+
+dynamics::StageSpace::Face motion_face(const geometry::GearPair& pair, const MeshInput& input, double misalignment) {
+  dynamics::StageSpace::Face face;
+  face.width = pair.common_face().width;
+  face.middle = place_of_face(pair);
+  if (gaps_in_table(input)) return face;
+  std::vector<double> places;
+  for (const auto& place : dynamics::face_places()) places.push_back(place.z * face.width / 2);
+  face.gap = gaps_along(pair, misalignment, places);
+  // Of the transverse section.
+  for (double& gap : face.gap) gap /= std::cos(pair.pinion().base_helix_angle());
+  return face;
 }
 
 std::shared_ptr<const fem::SolidFace> solid_face(const MeshResult& mesh, const RunOptions& options, int coarser) {
@@ -280,7 +301,7 @@ std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const 
   if (!stage.reasons_for_space().empty()) {
     std::vector<std::string> held;
     for (const auto kind : {Body::sun, Body::ring, Body::carrier})
-      if (!stage.has_bearings({kind})) held.push_back(dynamics::SpatialStage::name_of({kind}));
+      if (!stage.has_bearings({kind})) held.push_back(dynamics::name_of_body({kind}));
     for (int n = 0; n < stage.planets(); ++n)
       if (!stage.has_bearings({Body::planet, n})) {
         held.emplace_back("planets");
@@ -301,11 +322,10 @@ std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const 
     const auto* input = scene.find(key);
     const bool written = input != nullptr && input->origin == Origin::scene && given > 0 && given != rigid;
     if (written && stage.has_radial_bearings({body}))
-      list.push_back(
-          {"support_replaced", Severity::warning,
-           fmt::format("{} is left out: the {} is held by its [[bearing]] tables alone", key,
-                       body == Body::planet ? std::string("planet") : dynamics::SpatialStage::name_of({body})),
-           name});
+      list.push_back({"support_replaced", Severity::warning,
+                      fmt::format("{} is left out: the {} is held by its [[bearing]] tables alone", key,
+                                  body == Body::planet ? std::string("planet") : dynamics::name_of_body({body})),
+                      name});
   }
   if (scene.supports.planet_clearance > 0 && stage.has_radial_bearings({Body::planet}))
     list.push_back({"support_replaced", Severity::warning,

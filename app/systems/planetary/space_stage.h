@@ -31,6 +31,10 @@ struct StageFaces {
 /// The same without its meshes, before they are solved.
 [[nodiscard]] dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geometry, std::size_t ring);
 
+/// The face of a mesh in the dynamics, with what its flanks are apart along it.
+[[nodiscard]] dynamics::StageSpace::Face motion_face(const geometry::GearPair& pair, const MeshInput& input,
+                                                     double misalignment);
+
 /// A computed mesh as solid gears along their face, at the level of its table less `coarser`; null where there is none.
 [[nodiscard]] std::shared_ptr<const fem::SolidFace> solid_face(const MeshResult& mesh, const RunOptions& options,
                                                                int coarser = 0);

@@ -50,11 +50,11 @@ void declare_frame(Declarations<Section>& t, const char* meaning) {
 }
 
 Table bearing_table() {
-  auto bearing = declare_list(
-      "bearing",
-      "A bearing, coupling or mount in its place on the axis (annulus statics). A body that has any is held by these "
-      "alone; others have their radial support of [supports] and neither move along the axis nor tilt.",
-      &SpaceInput::bearings);
+  auto bearing =
+      declare_list("bearing",
+                   "A bearing, coupling or mount in its place on the axis. A body that has any is held by these "
+                   "alone; others have their radial support of [supports] and neither move along the axis nor tilt.",
+                   &SpaceInput::bearings);
   bearing.on_request();
   bearing.key("name", &BearingInput::name, "Name in results.").required();
   declare_body(bearing, "The body that it holds.");
@@ -156,10 +156,11 @@ Table bearing_table() {
 }
 
 Table load_table() {
-  auto load = declare_list("load",
-                           "A force and a moment on a body from without, beside the torque of [stage] (annulus "
-                           "statics).",
-                           &SpaceInput::loads);
+  auto load =
+      declare_list("load",
+                   "A force and a moment on a body from without, beside the torque of [stage]. The dynamics has "
+                   "none that the carrier turns past.",
+                   &SpaceInput::loads);
   load.on_request();
   load.key("name", &LoadInput::name, "Name in results.").required();
   declare_body(load, "The body on which it acts.");
@@ -213,6 +214,21 @@ Table gravity_table() {
         .fallback(0.0, "in the middle of the face")
         .from(-furthest_mm, furthest_mm);
   return gravity.done();
+}
+
+Table tilt_inertia_table() {
+  Declarations<TiltInertiaInput> tilting(
+      "tilt_inertia", "Moments of inertia about an axis across the body's own, through the middle of the face.",
+      [](Scene& s, std::size_t) -> TiltInertiaInput& { return s.own<SpaceInput>().tilt_inertia; });
+  tilting.on_request();
+  for (const auto& [body, member] : {std::pair{"sun", &TiltInertiaInput::sun},
+                                     {"planet", &TiltInertiaInput::planet},
+                                     {"ring", &TiltInertiaInput::ring},
+                                     {"carrier", &TiltInertiaInput::carrier}})
+    tilting.key(fmt::format("{}_kg_m2", body), member, fmt::format("Of the {}.", body))
+        .above(0, 1e9)
+        .absent("a uniform cylinder as wide as the face: I/2 + m b^2/12");
+  return tilting.done();
 }
 
 Table statics_table() {
@@ -349,7 +365,9 @@ void reverse(std::vector<double>& list, std::initializer_list<std::size_t> which
 
 }  // namespace
 
-std::vector<Table> space_tables() { return {bearing_table(), load_table(), gravity_table(), statics_table()}; }
+std::vector<Table> space_tables() {
+  return {bearing_table(), load_table(), gravity_table(), tilt_inertia_table(), statics_table()};
+}
 
 void check_space(Scene& scene, std::vector<Problem>& problems) { SpaceChecks(scene, problems).run(); }
 

@@ -8,7 +8,7 @@
 /// Bearings in their places, loads that are no torques, and gravity: tables of planetary stages.
 namespace annulus::app {
 
-/// [[bearing]], [[load]], [gravity], [statics]
+/// [[bearing]], [[load]], [gravity], [tilt_inertia], [statics]
 [[nodiscard]] std::vector<Table> space_tables();
 /// Names, lengths of lists, and bodies that fit each other.
 void check_space(Scene& scene, std::vector<Problem>& problems);

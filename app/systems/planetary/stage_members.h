@@ -13,11 +13,19 @@ ANNULUS_MEMBERS(dynamics::BodyErrors, eccentricity, position);
 ANNULUS_MEMBERS(dynamics::CentralBody, mass, inertia, radius, support, torsional_support, errors);
 ANNULUS_MEMBERS(dynamics::PlanetBody, mass, inertia, radius);
 ANNULUS_MEMBERS(dynamics::PlanetBearing, radial, tangential, play, pin);
+ANNULUS_MEMBERS(dynamics::StageBody, kind, planet);
+ANNULUS_MEMBERS(dynamics::LinearBearing, name, body, on, place, stiffness, rigid, preload);
+ANNULUS_MEMBERS(dynamics::SpaceLoad, body, load);
+ANNULUS_MEMBERS(dynamics::StageSpace::Face, width, middle, gap);
+ANNULUS_MEMBERS(dynamics::StageSpace::TiltInertia, sun, ring, carrier, planet);
+ANNULUS_MEMBERS(dynamics::StageSpace, base_helix_angle, working_radius_sun, working_radius_ring, sun_face, ring_face,
+                tilt_inertia, bearings, loads);
 ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bearings, planet_angles, planet_errors,
                 sun_tooth_errors, ring_tooth_errors, sun_working_angle, ring_working_angle, sun_teeth, planet_teeth,
                 ring_teeth, sun_mesh, ring_mesh, sun_phase_lag, ring_phase_lag, ring_tooth_offset, ring_coupling,
                 sun_half_backlash, ring_half_backlash, mesh_damping_ratio, support_damping_ratio,
-                damping_without_contact, carrier_speed, ring_speed, bearing_speed, sun_torque, held, rotating_frame);
+                damping_without_contact, carrier_speed, ring_speed, bearing_speed, sun_torque, held, rotating_frame,
+                space);
 
 ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
 ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_factor, mean_force, contact_loss,
@@ -46,8 +54,10 @@ ANNULUS_MEMBERS(app::StageModes::Mode, frequency, frequency_error, error_parts, 
                 strain, kinetic);
 ANNULUS_MEMBERS(app::StageModes, groups, bodies, list, shapes, campbell, critical_speeds);
 ANNULUS_MEMBERS(app::StageMotion, pin_force_max, pin_force_mean, load_zone, sun_support, ring_support, carrier_support,
-                held_torque, orbit_extent, orbit_largest, section, section_period, section_clusters, bearing_forces,
-                sun_orbit, poincare);
+                bearings, meshes, held_torque, orbit_extent, orbit_largest, section, section_period, section_clusters,
+                bearing_forces, space, sun_orbit, poincare);
+ANNULUS_MEMBERS(app::StageMotion::Bearing, name, radial_mean, radial_max, axial_mean, axial_max, moment_max);
+ANNULUS_MEMBERS(app::StageMotion::Mesh, name, place_mean, place_min, place_max);
 ANNULUS_MEMBERS(app::StageResponse, figures, errors, modes, motion, load_sharing, force_factors, waveform,
                 sharing_waveform, spectrum, time_series, reused);
 ANNULUS_MEMBERS(app::CouplingEffect::Row, model, averaged, instantaneous, quasi_static, sun_factor, ring_factor);

@@ -6,6 +6,7 @@
 #include "app/results/cached_value.h"
 #include "app/systems/planetary/pitch_deviations.h"
 #include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_members.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "core/errors.h"
@@ -96,6 +97,7 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
+  if (moves_in_space(scene)) put_in_space(stage, scene, geometry, ring, sun_mesh, ring_mesh);
   return stage;
 }
 

@@ -91,8 +91,8 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnes
   for (std::size_t i = 0; i < modes.modes.size(); ++i) {
     const auto& [frequency, shape] = modes.modes[i];
     result.list.push_back({frequency, frequencies[i].figure.error, frequencies[i].parts,
-                           dynamics::to_string(modes.kinds[i]), turning[i].frequency, turning[i].damping_ratio,
-                           column(energy.strain, i), column(energy.kinetic, i)});
+                           dynamics::to_string(modes.kinds[i], stage.space.has_value()), turning[i].frequency,
+                           turning[i].damping_ratio, column(energy.strain, i), column(energy.kinetic, i)});
     auto& row = result.shapes.rows.emplace_back(std::vector{static_cast<double>(i + 1), frequency});
     // The largest amplitude is 1: only the shape means something.
     Eigen::Index top = 0;

@@ -112,6 +112,7 @@ void for_each_stage_table(Response& r, Visit visit) {
   visit("load_sharing_waveform.csv", r.sharing_waveform);
   visit("spectrum.csv", r.spectrum);
   visit("bearing_forces.csv", r.motion.bearing_forces);
+  visit("bearings_in_space.csv", r.motion.space);
   visit("sun_orbit.csv", r.motion.sun_orbit);
   visit("poincare.csv", r.motion.poincare);
   visit("mode_shapes.csv", r.modes.shapes);
@@ -170,6 +171,10 @@ void save(const StageResponse& response, const std::string& id, const std::files
   std::filesystem::create_directories(folder);
   const std::vector<std::pair<std::string, std::string>> header = {{"annulus_version", version()}, {"inputs_id", id}};
   for_each_stage_table(response, [&](const char* name, Csv table) {
+    if (table.columns.empty()) {  // of another kind of stage
+      std::filesystem::remove(folder / name);
+      return;
+    }
     table.header = header;
     table.write(folder / name);
   });

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/model/scene_warnings.h"
-#include "app/systems/planetary/space_input.h"
+#include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "core/units.h"
@@ -47,6 +47,10 @@ std::vector<std::string> rigid_unasked(const Scene& scene) {
   const auto& s = scene.supports;
   if ((!s.planet_radial.empty() && !s.planet_tangential.empty()) || s.planet_pin != PinMounting::unbending)
     std::erase(keys, "supports.planet_N_per_m");
+  for (const auto& [body, key] : {std::pair{dynamics::StageBody::Kind::planet, "supports.planet_N_per_m"},
+                                  {dynamics::StageBody::Kind::carrier, "supports.carrier_N_per_m"},
+                                  {dynamics::StageBody::Kind::ring, "supports.ring_N_per_m"}})
+    if (has_bearing(scene, body)) std::erase(keys, key);
   return keys;
 }
 
@@ -55,7 +59,7 @@ void warn_of_tilting_pins(std::vector<Warning>& list, const Scene& scene, const 
   const auto& set = geometry.rings.front().set;
   const double force = geometry.operating_point.mean_mesh_force * pin_force_per_mesh_force(set);
   const double tilt = pin_tilt(scene, force);
-  if (!scene.dynamics || tilt == 0) return;
+  if (!scene.dynamics || tilt == 0 || moves_in_space(scene)) return;
   list.push_back({"pins_tilt", Severity::warning,
                   fmt::format("the cantilevered planet pins tilt under the mean load, by {:.3g} µm over the face width "
                               "of the sun mesh. The lumped model is plane and leaves this out: load distribution along "
@@ -76,10 +80,10 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
                                   "rings equalise the planet loads; give a stiffness, or \"rigid\"",
                                   fmt::join(keys, ", "))});
   warn_of_tilting_pins(list, scene, geometry);
-  if (scene.dynamics && scene.own<SpaceInput>().any())
-    list.push_back({"plane_model", Severity::warning,
-                    "the lumped model is plane: [[bearing]], [[load]] and [gravity] take part in annulus statics "
-                    "alone; bearings here are those of [supports]"});
+  if (scene.dynamics) {
+    const auto in_space = space_dynamics_warnings(scene, geometry);
+    list.insert(list.end(), in_space.begin(), in_space.end());
+  }
   warn_of_gauges(list, scene);
   const auto& e = scene.errors;
   if (scene.tolerances && !(e.sun_pitch.empty() && e.planet_pitch.empty() && e.ring_pitch.empty()))

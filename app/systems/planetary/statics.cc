@@ -90,7 +90,7 @@ std::vector<BearingStatics> all_bearings(const dynamics::SpatialStage& stage, co
   std::vector<BearingStatics> list;
   const auto made = dynamics::assemble(stage, 0);
   for (std::size_t b = 0; b < turn.bearing_names.size(); ++b) {
-    BearingStatics bearing{turn.bearing_names[b], dynamics::SpatialStage::name_of(made.bearings.at(b).body)};
+    BearingStatics bearing{turn.bearing_names[b], dynamics::name_of_body(made.bearings.at(b).body)};
     const auto most = [&](const std::function<double(const dynamics::StaticBearing&)>& value) {
       return with_error(turn, others, [&](const StaticTurn& t) {
         return largest(t, [&](const StaticPosition& p) { return value(p.bearings.at(b)); });

@@ -18,23 +18,6 @@ using Forms = std::vector<LinearForm>;
 using Stiffness = LinearBearing::Stiffness;
 using Vector = LinearBearing::Vector;
 
-std::string name_of(const StageBody& body) {
-  switch (body.kind) {
-    case Kind::sun:
-      return "sun";
-    case Kind::ring:
-      return "ring";
-    case Kind::carrier:
-      return "carrier";
-    case Kind::planet:
-      return "planet" + std::to_string(body.planet + 1);
-    case Kind::housing:
-    case Kind::pin:
-      break;
-  }
-  return "housing";
-}
-
 template <class Bodies>
 auto& forms_of(Bodies& bodies, const StageBody& body) {
   if (body.kind == Kind::planet) return bodies.planets[static_cast<std::size_t>(body.planet)];
@@ -151,7 +134,7 @@ class SpaceBodies {
  private:
   void add_body(const StageBody& body) {
     const BodyData data = data_of(stage_, body);
-    const auto name = name_of(body);
+    const auto name = name_of_body(body);
     Constraints constraints(data.radius);
     for (const auto& b : stage_.space->bearings) {
       if (b.body != body) continue;
@@ -160,7 +143,7 @@ class SpaceBodies {
         const bool planet = body.kind == Kind::planet;
         if (b.on.kind != Kind::housing && !planet)
           throw InputError(fmt::format("bearing '{}' of the {} stands rigidly on the {}: give it a stiffness", b.name,
-                                       name, name_of(b.on)));
+                                       name, name_of_body(b.on)));
         const Vector row = to_place(b.place).row(i);
         LinearForm right;
         const auto on = seat(stage_, forms_, body, b.on);
@@ -212,7 +195,7 @@ class SpaceBodies {
     const auto move = to_place(bearing.place);
     const Vector force = move.transpose() * bearing.preload;
     for (Eigen::Index i = 0; i < 5; ++i) builder_.add_load(d[static_cast<std::size_t>(i)], -force[i]);
-    const std::string name = name_of(bearing.body) + "_" + bearing.name;
+    const std::string name = bearing.element();
     for (const auto& [stiffness, form] :
          squares(moved_along_axis(bearing.stiffness, bearing.place), d, data_of(stage_, bearing.body).radius))
       builder_.add_spring(form, stiffness, 0, name);
@@ -271,7 +254,7 @@ class SpaceBodies {
       // In the housing the turning frame adds Omega x (-y, x).
       const Forms turned{(-1.0) * d[1], d[0], {}, (-1.0) * d[4], d[3]};
       for (const auto& [value, form] : squares(damping, d, data.radius))
-        builder_.add_spring(form, 0, value, name_of(first.body) + "_dampers");
+        builder_.add_spring(form, 0, value, name_of_body(first.body) + "_dampers");
       if (first.on.kind != Kind::housing) continue;
       for (Eigen::Index r = 0; r < 5; ++r)
         for (Eigen::Index c = 0; c < 5; ++c)

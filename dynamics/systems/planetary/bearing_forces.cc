@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/errors.h"
 #include "dynamics/figures/motion.h"
+#include "dynamics/systems/planetary/space_motion.h"
 
 namespace annulus::dynamics {
 
@@ -162,6 +164,25 @@ SupportReaction applied(const PlanetaryStage& stage, const TimeSeries& series, M
   return sum;
 }
 
+/// Sum of the transverse forces of a body's bearings on the housing, 2 x times; nothing where one is rigid, or in a
+/// plane stage.
+std::optional<Eigen::MatrixXd> bearings_on_housing(const PlanetaryStage& stage, const TimeSeries& series,
+                                                   StageMember member) {
+  if (!stage.space) return std::nullopt;
+  const auto kind = member == StageMember::sun    ? StageBody::Kind::sun
+                    : member == StageMember::ring ? StageBody::Kind::ring
+                                                  : StageBody::Kind::carrier;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(2, series.time.size());
+  const auto motion = space_motion(stage, series);
+  for (std::size_t i = 0; i < motion.bearings.size(); ++i) {
+    const auto& b = stage.space->bearings[i];
+    if (b.body.kind != kind || b.on.kind != StageBody::Kind::housing) continue;
+    if (b.rigid[0] || b.rigid[1]) return std::nullopt;
+    sum -= motion.bearings[i].force.topRows<2>();
+  }
+  return sum;
+}
+
 }  // namespace
 
 BearingForces bearing_forces(const PlanetaryStage& stage, const TimeSeries& series) {
@@ -175,9 +196,14 @@ SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& 
   Motion motion(stage, series);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(series.time.size());
   SupportReaction result{zero, zero, zero};
-  if (body.support == rigid || body.torsional_support == rigid) {
+  const auto in_space = bearings_on_housing(stage, series, member);
+  if (in_space) {
+    result.x = in_space->row(0).transpose();
+    result.y = in_space->row(1).transpose();
+  }
+  if ((body.support == rigid && !in_space) || body.torsional_support == rigid) {
     const auto held = applied(stage, series, motion, member);
-    if (body.support == rigid) {
+    if (body.support == rigid && !in_space) {
       result.x = held.x;
       result.y = held.y;
     }

@@ -22,7 +22,8 @@ struct BearingForces {
 [[nodiscard]] BearingForces bearing_forces(const PlanetaryStage& stage, const TimeSeries& series);
 
 /// Reaction of the supports of a central body on the housing, one value per time: k x + c (x' - Omega y) and so on. For
-/// rigid supports it is the sum of the forces of the meshes (of the planets, for the carrier) on the body.
+/// rigid supports it is the sum of the forces of the meshes (of the planets, for the carrier) on the body; in space, of
+/// its bearings on the housing without their dampers.
 struct SupportReaction {
   Eigen::VectorXd x, y;    ///< N, in the frame of the carrier
   Eigen::VectorXd torque;  ///< N m

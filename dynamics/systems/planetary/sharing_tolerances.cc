@@ -76,7 +76,7 @@ struct PerfectStage {
       for (int p = 0; p < positions; ++p) {
         (void)solver.solve((cycle + static_cast<double>(p) / positions) / perfect.mesh_frequency(), workspace);
         mean += Eigen::Map<const Eigen::VectorXd>(workspace.force.data(), planets) / positions;
-        response += solver.force_per_error(workspace).topRows(planets) / positions;
+        response += solver.force_per_error(workspace).topLeftCorner(planets, 2 * planets) / positions;
       }
     }
   }

@@ -64,13 +64,12 @@ class Assembly {
         result_{.mechanism = Mechanism(stage.plane.carrier.radius)} {}
 
   StageMechanism build() && {
-    for (const auto kind : central_bodies)
-      mechanism().add_body({SpatialStage::name_of({kind}), Vector3d::Zero(), space_});
+    for (const auto kind : central_bodies) mechanism().add_body({name_of_body({kind}), Vector3d::Zero(), space_});
     for (int n = 0; n < stage_.planets(); ++n)
-      mechanism().add_body({SpatialStage::name_of({Kind::planet, n}), centre_of(stage_, {Kind::planet, n}), space_});
+      mechanism().add_body({name_of_body({Kind::planet, n}), centre_of(stage_, {Kind::planet, n}), space_});
     if (stage_.pin)
       for (int n = 0; n < stage_.planets(); ++n)
-        mechanism().add_body({SpatialStage::name_of({Kind::pin, n}), centre_of(stage_, {Kind::pin, n}), space_});
+        mechanism().add_body({name_of_body({Kind::pin, n}), centre_of(stage_, {Kind::pin, n}), space_});
     for (const auto& bearing : stage_.bearings) add_bearing(bearing);
     for (const auto kind : central_bodies) add_support({kind});
     for (int n = 0; n < stage_.planets(); ++n) add_support({Kind::planet, n});
@@ -130,8 +129,8 @@ class Assembly {
         }
     holds_.push_back(row);
     result_.shared.push_back(1);
-    held = mechanism().hold(
-        fmt::format("{} of the {} (bearing '{}')", words[coordinate], SpatialStage::name_of(b.body), b.name), row);
+    held = mechanism().hold(fmt::format("{} of the {} (bearing '{}')", words[coordinate], name_of_body(b.body), b.name),
+                            row);
   }
 
   void add_scalar(StageMechanism::Bearing& made, const StageBearing& b, int coordinate, double stiffness, double play) {
@@ -181,7 +180,7 @@ class Assembly {
     StageBearing b;
     b.body = body;
     if (!stage_.has_bearings(body)) b.axial = b.tilt = rigid;
-    b.name = SpatialStage::name_of(body) + (body.kind == Kind::planet ? " bearing" : " support");
+    b.name = name_of_body(body) + (body.kind == Kind::planet ? " bearing" : " support");
     if (body.kind == Kind::planet) {
       const auto bearing = stage_.plane.planet_bearing(body.planet);
       b.on = {Kind::carrier};
@@ -202,7 +201,7 @@ class Assembly {
     b.body = {Kind::pin, n};
     b.on = {Kind::carrier};
     b.frame = StageFrame::planet;
-    b.name = SpatialStage::name_of(b.body);
+    b.name = name_of_body(b.body);
     b.matrix = stage_.pin;
     add_bearing(b);
     mechanism().hold(fmt::format("the rotation of {}", b.name),
@@ -352,13 +351,6 @@ class Assembly {
 
 }  // namespace
 
-std::string SpatialStage::name_of(const StageBody& body) {
-  constexpr const char* names[] = {"housing", "sun", "ring", "carrier"};
-  if (body.kind == Kind::planet) return fmt::format("planet{}", body.planet + 1);
-  if (body.kind == Kind::pin) return fmt::format("pin{}", body.planet + 1);
-  return names[static_cast<std::size_t>(body.kind)];
-}
-
 bool SpatialStage::has_bearings(const StageBody& body) const {
   return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
 }
@@ -380,13 +372,15 @@ std::vector<std::string> SpatialStage::reasons_for_space() const {
   for (const auto& load : loads) {
     const bool transverse = load.force.head<2>().any();
     if (load.force.z() != 0 || load.moment.head<2>().any() || (transverse && load.point.z() != 0))
-      reasons.push_back(fmt::format("load '{}' acts along the axis or tilts the {}", load.name, name_of(load.body)));
+      reasons.push_back(
+          fmt::format("load '{}' acts along the axis or tilts the {}", load.name, name_of_body(load.body)));
   }
   if (gravity.z() != 0 && !weights.empty()) reasons.emplace_back("gravity acts along the axis");
   if (gravity.head<2>().any())
     for (const auto& weight : weights)
       if (weight.place != 0)
-        reasons.push_back(fmt::format("the weight of the {} acts beside the middle of the face", name_of(weight.body)));
+        reasons.push_back(
+            fmt::format("the weight of the {} acts beside the middle of the face", name_of_body(weight.body)));
   if (pin && !keeps_plane(*pin)) reasons.emplace_back("the pins tilt as they bend");
   for (const auto& b : bearings) {
     const bool paired =
@@ -395,7 +389,7 @@ std::vector<std::string> SpatialStage::reasons_for_space() const {
     const bool radial = b.holds_radially();
     if (radial && !paired)
       reasons.push_back(fmt::format("bearing '{}' of the {} has no counterpart on the other side of the face", b.name,
-                                    name_of(b.body)));
+                                    name_of_body(b.body)));
   }
   return reasons;
 }

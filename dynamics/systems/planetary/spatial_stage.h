@@ -95,8 +95,6 @@ struct SpatialStage {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, in the housing's frame
 
   [[nodiscard]] int planets() const { return plane.planets(); }
-  /// For messages and files: "sun", "planet2".
-  [[nodiscard]] static std::string name_of(const StageBody& body);
   [[nodiscard]] bool has_bearings(const StageBody& body) const;
   [[nodiscard]] bool has_radial_bearings(const StageBody& body) const;
   /// Why bodies move along the axis and tilt; empty: nothing makes them, and these degrees of freedom are left out.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace annulus::dynamics {
 
 /// A body of a stage; planets and their pins by number.
@@ -9,6 +11,9 @@ struct StageBody {
   int planet = 0;
   bool operator==(const StageBody&) const = default;
 };
+
+/// For messages and files: "sun", "planet2".
+[[nodiscard]] std::string name_of_body(const StageBody& body);
 
 /// Frames in which bearings, loads and results are stated. z points along the axis in all of them.
 ///

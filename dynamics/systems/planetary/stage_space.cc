@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <utility>
 
@@ -9,6 +10,19 @@
 #include "dynamics/system/input_checks.h"
 
 namespace annulus::dynamics {
+
+std::string name_of_body(const StageBody& body) {
+  constexpr const char* names[] = {"housing", "sun", "ring", "carrier"};
+  if (body.kind == StageBody::Kind::planet) return fmt::format("planet{}", body.planet + 1);
+  if (body.kind == StageBody::Kind::pin) return fmt::format("pin{}", body.planet + 1);
+  return names[static_cast<std::size_t>(body.kind)];
+}
+
+std::string LinearBearing::element() const {
+  auto result = name_of_body(body) + "_" + name;
+  std::replace(result.begin(), result.end(), ' ', '_');
+  return result;
+}
 
 void StageSpace::check(int planets) const {
   for (const auto& [inertia, name] : {std::pair{tilt_inertia.sun, "sun"},

@@ -21,6 +21,8 @@ struct LinearBearing {
   Stiffness stiffness = Stiffness::Zero();  ///< K, symmetric: N/m, N, N m/rad; 0 in rigid coordinates
   std::array<bool, 5> rigid{};              ///< these coordinates stay 0; of central bodies only against the housing
   Vector preload = Vector::Zero();          ///< f: N, N m
+  /// Its name among springs, in columns and in groups of modal energy: "planet1_upwind_row".
+  [[nodiscard]] std::string element() const;
 };
 
 /// Force (N) in the middle of the face and moment (N m) on a body, in its axes.

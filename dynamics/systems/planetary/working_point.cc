@@ -19,6 +19,9 @@ using Vector = LinearBearing::Vector;
 LinearBearing linear(const StageMechanism::Bearing& bearing, const Mechanism::Equilibrium& at) {
   LinearBearing result;
   result.name = bearing.name;
+  // A bearing of every planet has the planet in its name as well.
+  if (const auto own = " " + name_of_body(bearing.body); result.name.ends_with(own))
+    result.name.resize(result.name.size() - own.size());
   result.body = bearing.body;
   result.on = bearing.on;
   result.place = bearing.place;
@@ -95,11 +98,20 @@ bool stands_in_housing(const StageLoad& load) {
 }
 
 StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::TiltInertia& inertia) {
+  // Of what stands in the housing, the part along the axis stays the same as the carrier turns.
   auto turning = stage;
-  turning.gravity.setZero();
-  std::erase_if(turning.loads, stands_in_housing);
-  const auto made = assemble(turning, 0);
+  bool stands = stage.gravity.head<2>().any() && !stage.weights.empty();
+  turning.gravity.head<2>().setZero();
+  for (auto& load : turning.loads)
+    if (stands_in_housing(load)) {
+      stands = true;
+      load.point.head<2>().setZero();
+      load.force.head<2>().setZero();
+      load.moment.setZero();
+    }
+  const auto made = assemble(turning, 0), made_under_all = assemble(stage, 0);
   const auto at = made.mechanism.solve();
+  const auto under_all = stands ? made_under_all.mechanism.solve() : at;
   StageSpace space;
   space.base_helix_angle = stage.base_helix_angle;
   space.planet_working_radius_sun = stage.planet_working_radius_sun;
@@ -107,15 +119,24 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
   space.sun_face.middle = stage.sun_face.middle;
   space.ring_face.middle = stage.ring_face.middle;
   space.tilt_inertia = inertia;
+  const bool in_space = !turning.reasons_for_space().empty();
   std::vector<std::vector<LinearBearing>> of_planets(static_cast<std::size_t>(stage.planets()));
   for (std::size_t i = 0; i < made.bearings.size(); ++i) {
     const auto& bearing = made.bearings[i];
     if (bearing.body.kind == Kind::pin) continue;
     auto found = linear(bearing, at);
     const bool given = i < turning.bearings.size();
-    if (given && bearing.frame == StageFrame::housing && stage.plane.carrier_speed != 0 &&
-        (turning.bearings[i].matrix || turning.bearings[i].x != turning.bearings[i].y))
-      found.stiffness = mean_over_turn(found.stiffness);
+    const bool on_housing = bearing.on.kind == Kind::housing && stage.plane.carrier_speed != 0;
+    if (on_housing && stands) {
+      found = linear(made_under_all.bearings[i], under_all);
+      found.preload.head<2>().setZero();
+      found.preload.tail<2>().setZero();
+    }
+    const bool directed = given && bearing.frame == StageFrame::housing &&
+                          (turning.bearings[i].matrix || turning.bearings[i].x != turning.bearings[i].y);
+    if (on_housing && (stands || directed)) found.stiffness = mean_over_turn(found.stiffness);
+    if (!in_space)
+      for (const std::size_t k : {2, 3, 4}) found.rigid.at(k) = true;
     const bool seated = stage.pin && bearing.body.kind == Kind::planet && bearing.on.kind == Kind::carrier;
     if (seated)
       of_planets[static_cast<std::size_t>(bearing.body.planet)].push_back(std::move(found));

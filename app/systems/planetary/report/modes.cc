@@ -15,7 +15,7 @@ namespace {
 constexpr double felt = 0.5;  // participation from which a crossing counts as excited by the mesh
 
 std::size_t kind_colour(const std::string& kind) {
-  return kind == "rotational" ? 0 : kind == "translational" ? 1 : kind == "planet" ? 2 : 3;
+  return kind.starts_with("rotational") ? 0 : kind.starts_with("translational") ? 1 : kind == "planet" ? 2 : 3;
 }
 
 /// Modes of one kind and one frequency.

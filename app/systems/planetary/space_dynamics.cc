@@ -1,0 +1,136 @@
+#include "app/systems/planetary/space_dynamics.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "app/scene/input_place.h"
+#include "app/systems/planetary/space_input.h"
+#include "app/systems/planetary/space_stage.h"
+#include "core/errors.h"
+#include "dynamics/systems/planetary/working_point.h"
+
+namespace annulus::app {
+
+namespace {
+
+/// A uniform cylinder of the body's mass and moment of inertia.
+double of_cylinder(double mass, double inertia, double width) { return inertia / 2 + mass * width * width / 12; }
+
+dynamics::StageSpace::TiltInertia tilt_inertia(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
+  const auto& given = scene.own<SpaceInput>().tilt_inertia;
+  const auto& set = geometry.rings.at(ring).set;
+  const auto& input = scene.rings.at(ring);
+  const auto width = [](const geometry::Gear& gear) { return gear.parameters().face_width; };
+  return {given.sun.value_or(of_cylinder(*scene.sun.mass, *scene.sun.inertia, width(set.sun()))),
+          given.ring.value_or(of_cylinder(*input.mass, *input.inertia, width(set.ring()))),
+          given.carrier.value_or(of_cylinder(*scene.carrier.mass, *scene.carrier.inertia, width(set.planet()))),
+          given.planet.value_or(of_cylinder(*scene.planet.mass, *scene.planet.inertia, width(set.planet())))};
+}
+
+/// Whether a bearing's force is no linear function of its motion.
+bool bends(const BearingInput& b) {
+  return b.rollers || !b.displacement.empty() || b.clearance > 0 || b.axial_clearance > 0;
+}
+
+bool depends_on_direction(const BearingInput& b) {
+  const bool in_housing = b.body != dynamics::StageBody::Kind::planet && b.frame == dynamics::StageFrame::housing;
+  return in_housing && (!b.matrix.empty() || (b.x && b.y && *b.x != *b.y));
+}
+
+std::string quoted(const std::vector<std::string>& names) { return fmt::format("'{}'", fmt::join(names, "', '")); }
+
+}  // namespace
+
+bool moves_in_space(const Scene& scene) {
+  const auto& space = scene.own<SpaceInput>();
+  return !space.bearings.empty() || std::any_of(space.loads.begin(), space.loads.end(), [](const LoadInput& load) {
+    return load.frame == dynamics::StageFrame::carrier || load.body == dynamics::StageBody::Kind::planet;
+  });
+}
+
+bool has_bearing(const Scene& scene, dynamics::StageBody::Kind body) {
+  const auto& bearings = scene.own<SpaceInput>().bearings;
+  return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
+}
+
+void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                  const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
+  if (stage.ring_coupling && !stage.ring_coupling->modes.empty())
+    throw InputError(with_place(scene,
+                                "dynamics.rim_coupling = \"elastic\": a ring in [[bearing]] tables has no elastic "
+                                "modes; use \"static\" or \"automatic\""));
+  const auto spatial = make_spatial_stage(scene, geometry, ring, sun_mesh, ring_mesh, {});
+  try {
+    stage.space = dynamics::space_about_equilibrium(spatial, tilt_inertia(scene, geometry, ring));
+  } catch (const InputError& error) {
+    throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
+  }
+  const auto& set = geometry.rings.at(ring).set;
+  stage.space->sun_face = motion_face(set.sun_mesh(), scene.sun_planet, scene.errors.sun_planet_misalignment);
+  stage.space->ring_face = motion_face(set.ring_mesh(), scene.ring_planet, scene.errors.ring_planet_misalignment);
+  stage.sun.support = stage.ring.support = stage.carrier.support = rigid;
+  stage.planet_bearings.clear();
+}
+
+std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeometry& geometry) {
+  const auto& space = scene.own<SpaceInput>();
+  std::vector<Warning> list;
+  if (!space.any()) return list;
+  std::vector<std::string> left_out;
+  if (space.gravity) left_out.emplace_back("[gravity]");
+  const auto frame = spatial_frame(scene, geometry, 0);
+  for (const auto& load : frame.loads)
+    if (dynamics::stands_in_housing(load)) left_out.push_back("load '" + load.name + "'");
+  if (!moves_in_space(scene)) {
+    if (left_out.empty())
+      for (const auto& load : frame.loads) left_out.push_back("load '" + load.name + "'");
+    list.push_back({"loads_left_out", Severity::warning,
+                    fmt::format("{} {} part in annulus statics alone: the dynamics has no bodies that move along the "
+                                "axis or tilt, because no [[bearing]] lets them",
+                                fmt::join(left_out, ", "), left_out.size() > 1 ? "take" : "takes")});
+    return list;
+  }
+  if (!left_out.empty())
+    list.push_back(
+        {"loads_left_out", Severity::warning,
+         fmt::format("of {} the dynamics has the part along the axis, and the stiffness that bearings in the "
+                     "housing have under it. It has no loads past which the carrier turns: what they do to "
+                     "load sharing and K_Hβ is in annulus statics",
+                     fmt::join(left_out, ", "))});
+  std::vector<std::string> bent, directed;
+  for (const auto& b : space.bearings) {
+    if (bends(b)) bent.push_back(b.name);
+    if (depends_on_direction(b)) directed.push_back(b.name);
+  }
+  if (!bent.empty())
+    list.push_back({"bearings_linear", Severity::warning,
+                    fmt::format("the dynamics has the stiffness of bearing {} at the equilibrium at time 0, and the "
+                                "force that it bears there. Motions that change its load by a large part of it are not "
+                                "right; annulus statics has its whole law",
+                                quoted(bent))});
+  if (!directed.empty())
+    list.push_back({"bearings_averaged", Severity::warning,
+                    fmt::format("the stiffness of bearing {} in the housing depends on the direction; the dynamics has "
+                                "its mean over a turn of the carrier",
+                                quoted(directed))});
+  std::vector<std::string> assumed;
+  for (const auto& [value, key] : {std::pair{&space.tilt_inertia.sun, "sun"},
+                                   {&space.tilt_inertia.ring, "ring"},
+                                   {&space.tilt_inertia.carrier, "carrier"},
+                                   {&space.tilt_inertia.planet, "planet"}})
+    if (!*value) assumed.push_back(fmt::format("tilt_inertia.{}_kg_m2", key));
+  if (!assumed.empty())
+    list.push_back({"tilt_inertia_assumed", Severity::warning,
+                    fmt::format("as of a uniform cylinder as wide as the face, because the scene does not mention {}. "
+                                "Natural frequencies of tilting modes depend on it",
+                                fmt::join(assumed, ", "))});
+  const auto assumptions = space_warnings(scene, 0, frame, {});
+  list.insert(list.end(), assumptions.begin(), assumptions.end());
+  return list;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "app/model/mesh_result.h"
+#include "app/plan/gear_geometry.h"
+#include "app/plan/warning.h"
+#include "app/scene/scene.h"
+#include "dynamics/systems/planetary/planetary_stage.h"
+
+/// The dynamics of a planetary stage whose bodies have [[bearing]] tables.
+namespace annulus::app {
+
+/// Whether [[bearing]] or [[load]] tables take part in the dynamics.
+[[nodiscard]] bool moves_in_space(const Scene& scene);
+
+[[nodiscard]] bool has_bearing(const Scene& scene, dynamics::StageBody::Kind body);
+
+/// Replaces the supports of a stage in the plane by its bearings. Throws InputError where something moves freely.
+void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                  const MeshResult& sun_mesh, const MeshResult& ring_mesh);
+
+/// What the dynamics assumes and leaves out of these tables.
+[[nodiscard]] std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeometry& geometry);
+
+}  // namespace annulus::app

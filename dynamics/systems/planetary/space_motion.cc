@@ -1,0 +1,43 @@
+#include "dynamics/systems/planetary/space_motion.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/errors.h"
+#include "core/not_known.h"
+#include "dynamics/systems/planetary/stage_forms.h"
+
+namespace annulus::dynamics {
+
+SpaceMotion space_motion(const PlanetaryStage& stage, const TimeSeries& series) {
+  SpaceMotion result;
+  if (!stage.space) return result;
+  LumpedSystemBuilder builder;
+  const auto forms = add_bodies_in_space(builder, stage);
+  const Eigen::Index times = series.time.size(), meshes = 2 * static_cast<Eigen::Index>(stage.planets());
+  require(series.force.rows() == 2 * meshes, fmt::format("{} forces of {} meshes", series.force.rows(), meshes));
+  for (const auto& b : stage.space->bearings) {
+    const auto d = relative_motion(stage, forms, b.body, b.on);
+    Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(5, times);
+    for (Eigen::Index i = 0; i < 5; ++i)
+      for (const auto& [dof, factor] : d[static_cast<std::size_t>(i)])
+        motion.row(i) += factor * series.displacement.row(dof);
+    SpaceMotion::Bearing bearing{b.element(), -b.stiffness * (to_place(b.place) * motion)};
+    bearing.force.colwise() -= b.preload;
+    for (Eigen::Index i = 0; i < 5; ++i)
+      if (b.rigid.at(static_cast<std::size_t>(i))) bearing.force.row(i).setConstant(not_known);
+    result.bearings.push_back(std::move(bearing));
+  }
+  for (Eigen::Index m = 0; m < meshes; ++m) {
+    const auto& face = m < meshes / 2 ? stage.space->sun_face : stage.space->ring_face;
+    const auto force = series.force.row(m), tilt = series.force.row(meshes + m);
+    SpaceMotion::Mesh mesh{series.meshes[static_cast<std::size_t>(m)], Eigen::VectorXd(times)};
+    for (Eigen::Index t = 0; t < times; ++t)
+      mesh.place[t] = force[t] == 0 ? not_known : face.width / 2 * tilt[t] / force[t];
+    result.meshes.push_back(std::move(mesh));
+  }
+  return result;
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/steady_state/steady_response.h"
+#include "dynamics/systems/planetary/planetary_stage.h"
+
+namespace annulus::dynamics {
+
+/// What bearings and meshes of a stage in space do over time.
+struct SpaceMotion {
+  struct Bearing {
+    std::string name;  ///< LinearBearing::element()
+    /// N, N m: x, y, z, about x, about y in the axes of the body, on the body, x times; without its dampers. Not known
+    /// in rigid coordinates.
+    Eigen::MatrixXd force;
+  };
+  struct Mesh {
+    std::string name;
+    Eigen::VectorXd place;  ///< m, z of the resultant from the middle of the common face; not known without force
+  };
+  std::vector<Bearing> bearings;  ///< as in StageSpace
+  std::vector<Mesh> meshes;       ///< sun meshes, then ring meshes
+};
+/// Empty for a plane stage. `series` must belong to the stage.
+[[nodiscard]] SpaceMotion space_motion(const PlanetaryStage& stage, const TimeSeries& series);
+
+}  // namespace annulus::dynamics
