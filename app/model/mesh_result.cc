@@ -256,6 +256,7 @@ MeshResult stiffness_alone(const MeshResult& mesh) {
           .table = mesh.table,
           .facts = mesh.facts,
           .coupling = mesh.coupling,
+          .face = mesh.face,
           .shares = mesh.shares,
           .nominal = mesh.nominal,
           .tabulated = mesh.tabulated,

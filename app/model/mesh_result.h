@@ -12,6 +12,7 @@
 #include "app/report/drawings/deformed_mesh.h"
 #include "core/bytes.h"
 #include "core/csv.h"
+#include "core/face_shape.h"
 #include "core/file_set.h"
 #include "core/stiffness_table.h"
 
@@ -67,6 +68,8 @@ struct MeshResult {
   std::map<std::string, double> facts{};
   /// Ring meshes: how those of all planets act on each other through the ring; null when that was not looked at.
   std::shared_ptr<const SolvedCoupling> coupling{};
+  /// Solid gears along their face, where the dynamics moves them in space; else null.
+  std::shared_ptr<const FaceShape> face{};
   PairShares shares{};      ///< none of prescribed stiffnesses
   std::size_t nominal = 0;  ///< index of the nominal load in the table
   /// Whether the lumped model reads the table; else the scene prescribes a stiffness, and the table shows it.
@@ -115,13 +118,13 @@ namespace annulus {
 
 ANNULUS_MEMBERS(app::PairShares, phases, first, share);
 
-/// Without the model, the coupling and how it was found, which its reader knows.
+/// Without the model, the coupling, the face and how it was found, which its reader knows.
 template <>
 struct Members<app::MeshResult> {
   template <class Value>
   static auto of(Value& value) {
     auto& [model, contact_ratio, table, positions, housing, rollers, pins, pressure, line_load, stress, gauges, picture,
-           fields, bodies, facts, coupling, shares, nominal, tabulated, reused] = value;
+           fields, bodies, facts, coupling, face, shares, nominal, tabulated, reused] = value;
     return std::tie(contact_ratio, table, positions, housing, rollers, pins, pressure, line_load, stress, gauges,
                     picture, fields, bodies, facts, shares, nominal, tabulated);
   }

@@ -28,6 +28,14 @@ double energy_rate(const CompiledMesh& mesh, LumpedSystem::Contact contact, doub
   return 0.5 * stiffness_rate * g * g;
 }
 
+/// Of the law of a whole mesh at a deflection beyond the backlash, J.
+double place_energy(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Contact contact, double t, double g,
+                    const LumpedSystem::Workspace& w) {
+  if (contact == LumpedSystem::Contact::open) return 0;
+  return mesh.surface ? mesh.surface->energy(table_place(mesh, contact, t).cycles, g)
+                      : 0.5 * law_in_contact(mesh, m, contact, g, w).force * g;
+}
+
 /// The meshes' part of the Jacobian with vectors that move and forces that depend on each other.
 template <class Compiled>
 void subtract_coupled(const LumpedSystem& system, const Compiled& c, double t, Eigen::Ref<Eigen::MatrixXd> result,
@@ -106,6 +114,7 @@ LumpedSystem::Workspace LumpedSystem::workspace() const {
     list->assign(meshes_.size(), 0.0);
   w.across.assign(bearings_.size(), 0.0);
   w.across_face.assign(faces_.size(), 0.0);
+  w.face_shape.assign(faces_.size(), {});
   w.location.resize(meshes_.size());
   const auto even = [](std::size_t size) { return size + size % 2; };
   w.pairs.assign(2 * names_.size() + even(meshes_.size()) + even(compiled_->moving_dofs.size()), 0.0);
@@ -205,10 +214,10 @@ double LumpedSystem::energy(double t, const double* y, Workspace& w) const {
   for (const auto& face : faces_)
     for (const auto& place : face.places) {
       const auto m = static_cast<std::size_t>(face.approach);
-      const auto [contact, g] = place_state(face, place, w.delta[m], w.delta[face.tilt]);
       const CompiledMesh& mesh = compiled_->meshes[m];
-      energy += place.weight * (mesh.surface ? mesh.surface->energy(table_place(mesh, contact, t).cycles, g)
-                                             : 0.5 * law_in_contact(mesh, m, contact, g, w).force * g);
+      const auto [contact, g, weight] =
+          place_state(face, place, w.face_shape[mesh.face], w.delta[m], w.delta[face.tilt]);
+      energy += weight * place_energy(mesh, m, contact, t, g, w);
     }
   for (const auto& coupling : compiled_->couplings) {
     auto k = static_cast<std::size_t>(coupling.offset);
@@ -242,8 +251,15 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
   }
   for (const auto& face : faces_)
     for (const auto& place : face.places) {
-      const auto [contact, g] = place_state(face, place, w.delta[face.approach], w.delta[face.tilt]);
-      p.supplied += place.weight * energy_rate(compiled_->meshes[face.approach], contact, t, g, compiled_->rates, w);
+      const auto m = static_cast<std::size_t>(face.approach);
+      const CompiledMesh& mesh = compiled_->meshes[m];
+      const auto& shape = w.face_shape[mesh.face];
+      const auto [contact, g, weight] = place_state(face, place, shape, w.delta[m], w.delta[face.tilt]);
+      if (contact == Contact::open) continue;
+      const auto rates = place_rates(place, shape);
+      p.supplied += weight * energy_rate(mesh, contact, t, g, compiled_->rates, w) +
+                    rates.weight * place_energy(mesh, m, contact, t, g, w);
+      if (contact == Contact::drive) p.supplied -= weight * rates.gap * law_in_contact(mesh, m, contact, g, w).force;
     }
   for (const auto& coupling : compiled_->couplings) {
     const CouplingMatrix rate = compliance_rate(coupling, t, w);

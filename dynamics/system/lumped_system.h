@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,6 +93,12 @@ struct FaceElement {
     double gap = 0;            ///< m, of the driving flanks
   };
   std::vector<Place> places;
+  /// What changes over the phase of the approach, as in FaceShape: weights by 1 + slope z + curvature P(z), gaps by
+  /// gap_slope (z - slope / 3), along the line of action.
+  struct Course {
+    PeriodicCurve slope, curvature, gap_slope;
+  };
+  std::optional<Course> course{};
 };
 
 /// A spring with its damper along a coordinate a: force k a^T q + c a^T q', part of K and C. The name states the
@@ -125,7 +132,9 @@ class LumpedSystem {
     std::vector<double> tangent;                   ///< per mesh, dF/d delta of the last evaluation, N/m
     std::vector<double> across;                    ///< per bearing, d elastic of one mesh / d delta of the other, N/m
     std::vector<double> across_face;               ///< per face, d elastic of the tilt / d delta of the approach, N/m
-    std::vector<Contact> contact;                  ///< per mesh
+    /// Per face at `time`: slope, curvature, gap_slope of its course, then their rates, 1/s and m/s.
+    std::vector<std::array<double, 6>> face_shape;
+    std::vector<Contact> contact;  ///< per mesh
     /// Per mesh: value of a rectangular wave (1 high, 0 low) held up to the next jump; -1: from the time.
     std::vector<signed char> wave;
     std::vector<double> factor, factor_rate;  ///< of the moving shares of all meshes at `time`

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -33,7 +34,9 @@ struct CompiledMesh {
   int first_tooth = 0, last_tooth = 0;    ///< of Compiled::tooth_errors
   int first_moving = 0, last_moving = 0;  ///< of Compiled::moving
   bool coupled = false;
-  int face = -1;  ///< of LumpedSystem::faces whose approach it is
+  int face = -1;                             ///< of LumpedSystem::faces whose approach it is
+  const CurveBundle* face_course = nullptr;  ///< slope, curvature, gap slope; of Compiled::bundles
+  double face_phase = 0;                     ///< mesh cycles, of the course at time 0
   SlotTerm ripple;
   double low = 0, high = 0, duty = 0;
   const CurveBundle* table = nullptr;  ///< secant and unloaded transmission error; of Compiled::bundles
@@ -143,22 +146,36 @@ inline ForceSurface::Value law_in_contact(const CompiledMesh& mesh, std::size_t 
   return mesh.surface ? mesh.surface->at(w.location[m], g) : ForceSurface::Value{w.stiffness[m] * g, w.stiffness[m]};
 }
 
-/// A place of a face: its contact and its deflection beyond the backlash.
+/// A place of a face: its contact, its deflection beyond the backlash and its weight.
 struct PlaceState {
   LumpedSystem::Contact contact = LumpedSystem::Contact::open;
-  double g = 0;
+  double g = 0, weight = 0;
 };
-/// At deflections of the approach and the tilt (m).
-inline PlaceState place_state(const FaceElement& face, const FaceElement::Place& place, double approach, double tilt) {
+/// At deflections of the approach and the tilt (m), with the course of the face at that time.
+inline PlaceState place_state(const FaceElement& face, const FaceElement::Place& place,
+                              const std::array<double, 6>& shape, double approach, double tilt) {
   using Contact = LumpedSystem::Contact;
-  const double x = approach + place.z * tilt, driving = x - place.gap;
-  if (!face.half_backlash) return {driving >= 0 ? Contact::drive : Contact::back, driving};
-  if (driving > *face.half_backlash) return {Contact::drive, driving - *face.half_backlash};
-  if (x < -*face.half_backlash) return {Contact::back, x + *face.half_backlash};
-  return {};
+  const auto [slope, curvature, gap_slope, slope_rate, curvature_rate, gap_rate] = shape;
+  const double z = place.z;
+  const double weight = place.weight * (1 + slope * z + curvature * (1.5 * z * z - 0.5));
+  const double x = approach + z * tilt, driving = x - place.gap - gap_slope * (z - slope / 3);
+  if (!face.half_backlash) return {driving >= 0 ? Contact::drive : Contact::back, driving, weight};
+  if (driving > *face.half_backlash) return {Contact::drive, driving - *face.half_backlash, weight};
+  if (x < -*face.half_backlash) return {Contact::back, x + *face.half_backlash, weight};
+  return {Contact::open, 0, weight};
+}
+/// d weight / dt and d gap / dt of the driving flanks.
+struct PlaceRates {
+  double weight = 0, gap = 0;
+};
+inline PlaceRates place_rates(const FaceElement::Place& place, const std::array<double, 6>& shape) {
+  const auto [slope, curvature, gap_slope, slope_rate, curvature_rate, gap_rate] = shape;
+  const double z = place.z;
+  return {place.weight * (slope_rate * z + curvature_rate * (1.5 * z * z - 0.5)),
+          gap_rate * (z - slope / 3) - gap_slope * slope_rate / 3};
 }
 
-/// The same for a mesh along its face; `across`: between its approach and its tilt.
+/// Elastic forces and tangents of a mesh along its face; `across`: between its approach and its tilt.
 void apply_face(const FaceElement& face, const CompiledMesh& mesh, LumpedSystem::Workspace& w, double& across);
 
 /// Elastic force and tangent by the law of one mesh, from deflection and contact state in the workspace.

@@ -222,7 +222,13 @@ void LumpedSystemCompiler::compile_face(const FaceElement& face, int number) {
     check_without_backlash("a face", m);
     compiled_->meshes[m].coupled = true;
   }
-  compiled_->meshes[face.approach].face = number;
+  auto& mesh = compiled_->meshes[face.approach];
+  mesh.face = number;
+  if (face.course) {
+    const auto& [slope, curvature, gap_slope] = *face.course;
+    mesh.face_course = shared_bundle(compiled_->bundles, CurveBundle({&slope, &curvature, &gap_slope}));
+    mesh.face_phase = system_.meshes()[face.approach].phase_offset;
+  }
   double sum = 0;
   for (const auto& place : face.places) sum += place.weight;
   constexpr double rounding = 1e-9;

@@ -65,6 +65,11 @@ void LumpedSystem::evaluate_excitation(double t, Workspace& w) const {
     }
     w.error[m] = e;
     w.error_rate[m] = rate;
+    if (mesh.face_course) {
+      auto& shape = w.face_shape[mesh.face];
+      mesh.face_course->evaluate(mesh.frequency * t + mesh.face_phase, shape.data(), shape.data() + 3);
+      for (std::size_t i = 3; i < shape.size(); ++i) shape[i] *= mesh.frequency;
+    }
   }
   for (std::size_t i = 0; i < c.moving.size(); ++i) {
     const CompiledShare& share = c.moving[i];
@@ -118,11 +123,11 @@ void apply_face(const FaceElement& face, const CompiledMesh& mesh, LumpedSystem:
   w.tangent[j] = without_contact * w.stiffness[j];
   w.contact[i] = Contact::open;
   for (const auto& place : face.places) {
-    const auto [contact, g] = place_state(face, place, w.delta[i], w.delta[j]);
+    const auto [contact, g, weight] = place_state(face, place, w.face_shape[mesh.face], w.delta[i], w.delta[j]);
     if (contact == Contact::open) continue;
     if (w.contact[i] != Contact::drive) w.contact[i] = contact;
     const auto value = law_in_contact(mesh, i, contact, g, w);
-    const double force = place.weight * value.force, tangent = place.weight * value.tangent;
+    const double force = weight * value.force, tangent = weight * value.tangent;
     w.elastic[i] += force;
     w.elastic[j] += place.z * force;
     w.tangent[i] += tangent;

@@ -17,6 +17,7 @@
 #include "dynamics/system/lumped_system.h"
 #include "dynamics/systems/planetary/planetary_modes.h"
 #include "dynamics/systems/planetary/response.h"
+#include "dynamics/systems/planetary/space_motion.h"
 #include "dynamics/systems/planetary/stage_statics.h"
 #include "dynamics/systems/planetary/working_point.h"
 #include "tests/dynamics/spatial_stages.h"
@@ -414,6 +415,94 @@ BOOST_AUTO_TEST_CASE(helical_response_by_two_methods) {
     worst = std::max(worst, (column - jacobian.col(i)).cwiseAbs().maxCoeff() / jacobian.col(i).cwiseAbs().maxCoeff());
   }
   record.at_most("Jacobian against differences, of the largest of its column", "", worst, 1e-5, "differences");
+}
+
+// Solid gears along their face: straight flanks have the force of the whole mesh, and the moment of their course.
+BOOST_AUTO_TEST_CASE(moment_of_a_face_that_moves_its_load) {
+  annulus::test::Verification record("Face with a course", "closed form; balance of energy");
+  annulus::FaceShape shape;
+  constexpr int phases = 16;
+  for (int i = 0; i < phases; ++i) {
+    const double angle = 2 * pi * i / phases;
+    shape.slope.push_back(0.05 + 0.3 * std::cos(angle));
+    shape.curvature.push_back(0.2 + 0.1 * std::sin(angle));
+    shape.gap_slope.push_back(2e-6 + 3e-6 * std::sin(angle + 1));
+  }
+  const auto curve = [](const std::vector<double>& values) { return annulus::PeriodicCurve(values, phases); };
+  constexpr double stiffness = 5e8, frequency = 100, deflection = 40e-6, half = 20e-6;
+  LumpedSystemBuilder builder;
+  const auto u = builder.add_dof("u");
+  builder.add_mass(u, 1);
+  MeshElement mesh;
+  mesh.name = "mesh";
+  mesh.b = u;
+  mesh.excitation = ConstantStiffness{stiffness};
+  mesh.frequency = frequency;
+  mesh.phase_offset = 0.3;
+  builder.add_mesh(mesh);
+  mesh.name = "mesh_tilt";
+  mesh.b = {};
+  mesh.excitation = ConstantStiffness{stiffness / 3};
+  builder.add_mesh(mesh);
+  FaceElement face{0, 1, half, {}, {}};
+  for (const auto& place : face_places()) face.places.push_back({place.z, place.weight, 0});
+  face.course = {curve(shape.slope), curve(shape.curvature), curve(shape.gap_slope)};
+  builder.add_face(face);
+  const auto system = builder.build();
+  auto workspace = system.workspace();
+  const double y[2] = {deflection, 0};
+  for (const double t : {0.0, 0.0013, 0.0071}) {
+    system.evaluate_meshes(t, y, y + 1, workspace);
+    const double phase = frequency * t + 0.3;
+    const double slope = face.course->slope(phase), curvature = face.course->curvature(phase);
+    const double gap = face.course->gap_slope(phase);
+    const double mean = slope / 3, square = 1.0 / 3 + 2.0 / 15 * curvature;
+    const double force = stiffness * (deflection - half);
+    record.close("force", "N", workspace.force[0], force, 1e-12, "rounding");
+    record.near("moment over half the face width", "N", workspace.force[1],
+                force * mean - stiffness * gap * (square - mean * mean), 1e-9 * force, "rounding");
+    // dE/dt at rest is what the changing face supplies.
+    const double step = 1e-7;
+    const double after = system.energy(t + step, y, workspace), before = system.energy(t - step, y, workspace);
+    system.evaluate_meshes(t, y, y + 1, workspace);
+    record.near("power that the changing face supplies, over force x deflection x frequency", "",
+                system.power(t, y, workspace).supplied / (force * deflection * frequency),
+                (after - before) / (2 * step) / (force * deflection * frequency), 1e-6, "differences");
+  }
+}
+
+// A helical stage whose faces move their load: two methods agree, energy is balanced, and tilting bearings feel it.
+BOOST_AUTO_TEST_CASE(shuttling_forces_of_a_helical_stage) {
+  annulus::test::Verification record("Shuttling forces", "harmonic balance and time integration");
+  auto stage = lumped(with_planets(7.5, 3));
+  auto shape = std::make_shared<annulus::FaceShape>();
+  constexpr int phases = 16;
+  for (int i = 0; i < phases; ++i) {
+    const double angle = 2 * pi * i / phases;
+    shape->slope.push_back(0.2 * std::cos(angle));
+    shape->curvature.push_back(0.3);
+    shape->gap_slope.push_back(3e-6 * std::sin(angle));
+  }
+  stage.carrier_speed = 60 * units::rpm;
+  stage.mesh_damping_ratio = 0.05;
+  stage.support_damping_ratio = 0.04;
+  SimulationOptions options;
+  options.integrator.relative_tolerance = 1e-7;
+  const auto even = simulate(stage, options);
+  stage.space->sun_face.shape = stage.space->ring_face.shape = shape;
+  const auto found = simulate(stage, options);
+  BOOST_TEST(found.confirmed);
+  record.at_most("difference of both methods, of the mean force", "", *found.steady_difference, 1e-3,
+                 "tolerance of the steady state");
+  record.at_most("balance of energy", "", found.energy.relative, 1e-4, "tolerance of the integrator");
+  // The stiffness does not change, and without shuttling nothing moves.
+  const auto ripple = [&](const DynamicResponse& response) {
+    const auto motion = space_motion(stage, response.series);
+    const Eigen::RowVectorXd force = motion.bearings[0].force.row(0);
+    return (force.maxCoeff() - force.minCoeff()) / response.mean_mesh_force;
+  };
+  BOOST_TEST(ripple(even) < 1e-6);
+  BOOST_TEST(ripple(found) > 1e-3);
 }
 
 // The ring couples its meshes: the same forces as the mechanism of the statics, which solves for them otherwise.

@@ -6,6 +6,7 @@
 
 #include "contact_bench.h"
 #include "core/errors.h"
+#include "fem/face_shape.h"
 #include "fem/problem/solved_pair.h"
 #include "fem/solid_face.h"
 #include "ring_paper_problems.h"
@@ -140,6 +141,60 @@ BOOST_AUTO_TEST_CASE(tilt_and_lean_are_what_flanks_of_that_form_do) {
     record.at_most("lean: forces of slices, largest difference over the mean", "",
                    (l.force - m.force).head(law->size() - 1).cwiseAbs().maxCoeff() / mean, 2e-2,
                    "slope normal to the flank along an arc; windows of the elements");
+  }
+}
+
+// Two numbers per phase for the weights of the places, one for their gap: with them straight flanks have the force and
+// the moment of the gears, and so have slightly tilted ones. The moment of helical gears moves with the phase.
+BOOST_AUTO_TEST_CASE(reduced_face_has_force_and_moment_of_the_gears) {
+  annulus::test::Verification record("Solid gears reduced to force and moment", "the gears themselves");
+  auto misaligned = sun_mesh(2);
+  misaligned.misalignment = 15e-6;
+  for (const auto& problem : {sun_mesh(2), with_helix(sun_mesh(2), 12 * degree), misaligned}) {
+    const auto face = face_of(problem);
+    constexpr int phases = 4, places = 1000;
+    const auto shape = annulus::fem::reduced_face(*face, nominal_load, phases, 2);
+    BOOST_TEST(shape.error_relative < 0.2);
+    double least = 1, most = -1;
+    for (int p = 0; p < phases; ++p) {
+      const auto law = face->at(static_cast<double>(p) / phases, nominal_load);
+      const auto index = static_cast<std::size_t>(p);
+      const double slope = shape.slope[index], curvature = shape.curvature[index], gap = shape.gap_slope[index];
+      double low = 0, high = 80e-6;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = (low + high) / 2;
+        (law->force(law->at(even_approach(*law, middle))) < nominal_load ? low : high) = middle;
+      }
+      const auto state = law->at(even_approach(*law, low));
+      const double tangent = state.tangent.topLeftCorner(law->size() - 1, law->size() - 1).sum();
+      for (const double share : {0.0, 0.05, -0.05}) {
+        const double tilt = share * nominal_load / tangent;
+        auto at = even_approach(*law, low);
+        double moment = 0, reduced_force = 0, reduced_moment = 0;
+        for (Eigen::Index s = 0; s + 1 < at.size(); ++s)
+          at[s] += tilt * 2 * law->stations()[static_cast<std::size_t>(s)] / problem.face_width;
+        const auto tilted = law->at(at);
+        for (Eigen::Index s = 0; s + 1 < at.size(); ++s)
+          moment += tilted.force[s] * 2 * law->stations()[static_cast<std::size_t>(s)] / problem.face_width;
+        for (int i = 0; i < places; ++i) {
+          const double z = (2 * i + 1.0) / places - 1;
+          const double weight = (1 + slope * z + curvature * (1.5 * z * z - 0.5)) / places;
+          const double force = weight * (nominal_load + tangent * (tilt * z - gap * (z - slope / 3)));
+          reduced_force += force;
+          reduced_moment += z * force;
+        }
+        record.close("force, straight flanks and tilts of 5 % of the approach", "N", reduced_force, law->force(tilted),
+                     share == 0 ? 1e-5 : 3e-3, "second order of the tilt");
+        record.at_most("moment over force x half the face width, the same", "",
+                       std::abs(reduced_moment - moment) / nominal_load, 3e-3,
+                       "second order of the tilt, windows of the pressure elements");
+        if (share == 0) {
+          least = std::min(least, moment / nominal_load);
+          most = std::max(most, moment / nominal_load);
+        }
+      }
+    }
+    if (problem.pair.pinion().base_helix_angle() != 0) BOOST_TEST(most - least > 0.01);
   }
 }
 

@@ -224,9 +224,10 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"errors.ring_pitch_class", "the motion repeats after all teeth"},
       {"errors.pitch_seed", "of the pitch classes"},
       {"strain_gauge.*", "gauges change nothing"},
-      {"bearing.*", "of annulus statics alone"},
-      {"load.*", "of annulus statics alone"},
+      {"bearing.*", "of stages in space, which have suites of their own"},
+      {"load.*", "of stages in space"},
       {"gravity.*", "of annulus statics alone"},
+      {"tilt_inertia.*", "of stages in space"},
       {"statics.*", "of annulus statics alone"},
       {"dynamics.mesh_cycles", "a length of motion, without a steady state"},
   };

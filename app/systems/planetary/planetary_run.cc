@@ -6,6 +6,7 @@
 #include "app/run/pipeline.h"
 #include "app/scene/input_place.h"
 #include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_members.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/errors.h"
@@ -87,6 +88,8 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
       throw InputError(with_place(scene, what + ": " + error.what()));
     }
   }();
+  if (options.with_dynamics && scene.dynamics && moves_in_space(scene))
+    result.face = face_in_motion(result, geometry.operating_point.mean_mesh_force, options);
   if (options.with_dynamics && may_be_coupled(scene, model)) {
     result.coupling = std::make_shared<SolvedCoupling>(
         solve_coupling(scene, geometry, model, 1 / result.mean_stiffness().value, options, options.out / model.ring));

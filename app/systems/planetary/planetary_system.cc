@@ -15,6 +15,7 @@
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_warnings.h"
 #include "app/systems/planetary/statics.h"
 #include "app/systems/planetary/strain_gauges.h"
@@ -119,6 +120,10 @@ class PlanetarySystem final : public GearSystem {
     const auto& response = static_cast<const RingResponse&>(*run.responses.at(ring));
     const auto& name = scene().rings.at(ring).name;
     auto list = stage_warnings(response.stage.figures, name);
+    if (moves_in_space(scene())) {
+      auto more = face_warnings(run.tables.front(), run.tables.at(ring + 1), scene().accuracy, name);
+      std::move(more.begin(), more.end(), std::back_inserter(list));
+    }
     if (response.tolerances) {
       auto more = tolerance_warnings(*response.tolerances, run.tables_of(ring), name);
       std::move(more.begin(), more.end(), std::back_inserter(list));

@@ -7,11 +7,15 @@
 #include <cmath>
 #include <string>
 
+#include "app/results/cached_value.h"
+#include "app/run/pipeline.h"
 #include "app/scene/input_place.h"
 #include "app/systems/planetary/space_input.h"
 #include "app/systems/planetary/space_stage.h"
+#include "app/systems/planetary/stage_members.h"
 #include "core/errors.h"
 #include "dynamics/systems/planetary/working_point.h"
+#include "fem/face_shape.h"
 
 namespace annulus::app {
 
@@ -70,8 +74,9 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
     throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
   }
   const auto& set = geometry.rings.at(ring).set;
-  stage.space->sun_face = motion_face(set.sun_mesh(), scene.sun_planet, scene.errors.sun_planet_misalignment);
-  stage.space->ring_face = motion_face(set.ring_mesh(), scene.ring_planet, scene.errors.ring_planet_misalignment);
+  const auto& e = scene.errors;
+  stage.space->sun_face = motion_face(set.sun_mesh(), scene.sun_planet, sun_mesh, e.sun_planet_misalignment);
+  stage.space->ring_face = motion_face(set.ring_mesh(), scene.ring_planet, ring_mesh, e.ring_planet_misalignment);
   stage.sun.support = stage.ring.support = stage.carrier.support = rigid;
   stage.planet_bearings.clear();
 }
@@ -128,8 +133,39 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
                     fmt::format("as of a uniform cylinder as wide as the face, because the scene does not mention {}. "
                                 "Natural frequencies of tilting modes depend on it",
                                 fmt::join(assumed, ", "))});
-  const auto assumptions = space_warnings(scene, 0, frame, {});
+  // Which faces are even is known once the meshes are solved.
+  auto assumptions = space_warnings(scene, 0, frame, {});
+  std::erase_if(assumptions, [](const Warning& w) { return w.key == "even_faces"; });
   list.insert(list.end(), assumptions.begin(), assumptions.end());
+  return list;
+}
+
+std::shared_ptr<const FaceShape> face_in_motion(const MeshResult& mesh, double mesh_force, const RunOptions& options) {
+  const auto solid = solid_face(mesh, options);
+  if (!solid) return nullptr;
+  constexpr int phases = 16;
+  const double normal = mesh_force / std::cos(mesh.model.problem->pair.pinion().base_helix_angle());
+  const auto id = identity_of(mesh.model.id(), mesh.fact("level"), mesh.fact("degree"), normal, phases);
+  const auto [shape, reused] = cached_value(options.store.get(), "faces", id,
+                                            [&] { return fem::reduced_face(*solid, normal, phases, options.threads); });
+  note_reuse(options, fmt::format("face of the {} mesh", mesh.model.mesh), reused);
+  return std::make_shared<const FaceShape>(shape);
+}
+
+std::vector<Warning> face_warnings(const MeshResult& sun_mesh, const MeshResult& ring_mesh, double accuracy,
+                                   const std::string& ring) {
+  std::vector<Warning> list;
+  const auto even = [](const MeshResult& mesh) { return mesh.model.computed() && !mesh.face; };
+  if (even(sun_mesh) || even(ring_mesh)) list.push_back(even_faces_warning(ring));
+  for (const auto& [mesh, name] : {std::pair{&sun_mesh, "sun"}, {&ring_mesh, "ring"}})
+    if (mesh->face && mesh->face->error_relative > accuracy)
+      list.push_back(
+          {"face_reduced", Severity::warning,
+           fmt::format("the dynamics has the {} mesh along its face as straight about its load. Where one end "
+                       "of the face approaches by half as much again as the middle, force and moment (over "
+                       "half the face width) deviate by {:.2g} % of the force from those of the solid gears",
+                       name, 100 * mesh->face->error_relative),
+           ring});
   return list;
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "app/model/mesh_result.h"
+#include "app/model/run_options.h"
 #include "app/plan/gear_geometry.h"
 #include "app/plan/warning.h"
 #include "app/scene/scene.h"
@@ -19,6 +22,14 @@ namespace annulus::app {
 /// Replaces the supports of a stage in the plane by its bearings. Throws InputError where something moves freely.
 void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                   const MeshResult& sun_mesh, const MeshResult& ring_mesh);
+
+/// A solved mesh as solid gears along their face; null where it has no solid gears. `mesh_force`: N, in the transverse
+/// section.
+[[nodiscard]] std::shared_ptr<const FaceShape> face_in_motion(const MeshResult& mesh, double mesh_force,
+                                                              const RunOptions& options);
+/// How well the faces of a stage in space are known.
+[[nodiscard]] std::vector<Warning> face_warnings(const MeshResult& sun_mesh, const MeshResult& ring_mesh,
+                                                 double accuracy, const std::string& ring);
 
 /// What the dynamics assumes and leaves out of these tables.
 [[nodiscard]] std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeometry& geometry);

@@ -240,16 +240,23 @@ dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geo
   return stage;
 }
 
-dynamics::StageSpace::Face motion_face(const geometry::GearPair& pair, const MeshInput& input, double misalignment) {
+dynamics::StageSpace::Face motion_face(const geometry::GearPair& pair, const MeshInput& input, const MeshResult& mesh,
+                                       double misalignment) {
+  const double c = std::cos(pair.pinion().base_helix_angle());
   dynamics::StageSpace::Face face;
   face.width = pair.common_face().width;
   face.middle = place_of_face(pair);
+  if (mesh.face) {
+    auto shape = std::make_shared<FaceShape>(*mesh.face);
+    for (double& gap : shape->gap_slope) gap /= c;
+    face.shape = std::move(shape);
+  }
   if (gaps_in_table(input)) return face;
   std::vector<double> places;
   for (const auto& place : dynamics::face_places()) places.push_back(place.z * face.width / 2);
   face.gap = gaps_along(pair, misalignment, places);
   // Of the transverse section.
-  for (double& gap : face.gap) gap /= std::cos(pair.pinion().base_helix_angle());
+  for (double& gap : face.gap) gap /= c;
   return face;
 }
 
@@ -292,6 +299,16 @@ dynamics::SpatialStage make_spatial_stage(const Scene& scene, const GearGeometry
   set_law(stage.ring_face, set.ring_mesh(), scene.ring_planet, plane.ring_mesh, scene.errors.ring_planet_misalignment,
           faces.ring_factor, stretches, faces.ring, force);
   return stage;
+}
+
+Warning even_faces_warning(const std::string& ring) {
+  return {"even_faces", Severity::warning,
+          "a computed mesh stiffness is spread evenly over the face: every part of it gives way by itself. Real teeth "
+          "support the loaded part from beside it, so that K_Hβ is overestimated where bodies tilt. Lead modifications "
+          "and misalignment act in the stiffness alone, not in the load along the face. The error bar of K_Hβ contains "
+          "neither. Solid models of rings that stand on no single supports, with planets on hubs, need no such "
+          "assumption",
+          ring};
 }
 
 std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const dynamics::SpatialStage& stage,
@@ -338,13 +355,7 @@ std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const 
            (!stage.reasons_for_space().empty() || scene.fidelity == Fidelity::solid);
   };
   if (spread(scene.sun_planet, faces.sun) || spread(scene.ring_planet, faces.ring))
-    list.push_back({"even_faces", Severity::warning,
-                    "a computed mesh stiffness is spread evenly over the face: every part of it gives way by itself. "
-                    "Real teeth support the loaded part from beside it, so that K_Hβ is overestimated where bodies "
-                    "tilt. Lead modifications and misalignment act in the stiffness alone, not in the load along the "
-                    "face. The error bar of K_Hβ contains neither. Solid models of rings that stand on no single "
-                    "supports, with planets on hubs, need no such assumption",
-                    name});
+    list.push_back(even_faces_warning(name));
   return list;
 }
 

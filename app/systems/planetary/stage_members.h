@@ -16,7 +16,8 @@ ANNULUS_MEMBERS(dynamics::PlanetBearing, radial, tangential, play, pin);
 ANNULUS_MEMBERS(dynamics::StageBody, kind, planet);
 ANNULUS_MEMBERS(dynamics::LinearBearing, name, body, on, place, stiffness, rigid, preload);
 ANNULUS_MEMBERS(dynamics::SpaceLoad, body, load);
-ANNULUS_MEMBERS(dynamics::StageSpace::Face, width, middle, gap);
+ANNULUS_MEMBERS(FaceShape, slope, curvature, gap_slope, error_relative);
+ANNULUS_MEMBERS(dynamics::StageSpace::Face, width, middle, gap, shape);
 ANNULUS_MEMBERS(dynamics::StageSpace::TiltInertia, sun, ring, carrier, planet);
 ANNULUS_MEMBERS(dynamics::StageSpace, base_helix_angle, working_radius_sun, working_radius_ring, sun_face, ring_face,
                 tilt_inertia, bearings, loads);

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/face_shape.h"
 #include "dynamics/systems/planetary/stage_bodies.h"
 
 namespace annulus::dynamics {
@@ -41,6 +43,8 @@ struct StageSpace {
     double width = 0, middle = 0;  ///< m, of the common face; `middle`: its z
     /// m, of the driving flanks before deformation, in the transverse section, at face_places(); empty: none.
     std::vector<double> gap{};
+    /// Of solid gears; its gaps are those of the transverse section. Null: the law of the mesh is spread evenly.
+    std::shared_ptr<const FaceShape> shape{};
   };
   Face sun_face, ring_face;
   struct TiltInertia {
