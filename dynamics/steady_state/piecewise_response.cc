@@ -240,6 +240,7 @@ std::string why_not_piecewise(const LumpedSystem& system, double period) {
   if (system.has_moving_vectors()) return "mesh vectors move with the mesh";
   if (!system.couplings().empty()) return "meshes act on each other through the ring";
   if (!system.bearings().empty()) return "bearings have clearance";
+  if (!system.faces().empty()) return "meshes are spread over their faces";
   for (const auto& mesh : system.meshes()) {
     const bool wave = std::holds_alternative<RectangularStiffness>(mesh.excitation);
     if (!wave && !std::holds_alternative<ConstantStiffness>(mesh.excitation))

@@ -84,7 +84,8 @@ struct BearingElement {
 ///   F = sum w_i f(a + z_i d - g_i),   F_tilt = sum w_i z_i f(a + z_i d - g_i),
 ///
 /// z_i from -1 to 1, f the force beyond the backlash. Each place has contact of its own, which no integrator looks for:
-/// both forces are continuous. The excitation of the tilt is that of small motions while the whole face carries.
+/// both elastic forces are continuous. The dampers act on the whole face while any part of it touches. The excitation
+/// of the tilt is that of small motions while the whole face carries.
 struct FaceElement {
   int approach = 0, tilt = 0;           ///< in the order of add_mesh; without backlash of their own
   std::optional<double> half_backlash;  ///< m; absent: the flanks pull as well

@@ -114,7 +114,10 @@ BOOST_AUTO_TEST_CASE(equilibrium_is_that_of_the_statics) {
         {Case::pins, 7.5, 1e-8, "residual of the equilibria"},
         {Case::partial, 7.5, 5e-4, "places on the face"}}) {
     auto s = stages::reliability_stage(helix * units::deg);
+    s.plane.carrier_speed = 0;  // loads of the housing act as they are
     s.ring_face.middle = 0.004;
+    s.gravity = {2, -9.5, 1};
+    s.weights = {{{Kind::sun}, 180, 0.1}, {{Kind::ring}, 509, 0}, {{Kind::carrier}, 1500, -0.05}};
     add_all_bearings(s);
     s.loads = {{"thrust", {Kind::carrier}, StageFrame::housing, {0, 0, 0.1}, {0, 0, 4e4}, {0, 0, 0}},
                {"pin", {Kind::planet, 1}, StageFrame::planet, {0.02, 0, 0.05}, {1e3, 0, -1e3}, {50, 70, 0}}};
@@ -317,6 +320,46 @@ BOOST_AUTO_TEST_CASE(gyroscopic_moments_of_a_tilting_rotor) {
                      "double eigenvalues");
     }
   }
+}
+
+// A stage that leans in the housing as a whole while it turns needs no force but in its bearings on the housing, which
+// it does not have here: spins, orbits of planets and their centrifugal preload take part.
+BOOST_AUTO_TEST_CASE(a_turning_stage_leans_freely) {
+  annulus::test::Verification record("Leaning of a turning stage", "rigid motion in the housing");
+  auto s = with_planets(7.5, 3);
+  s.plane.carrier_speed = 400 * units::rpm;
+  auto stage = lumped(s);
+  stage.support_damping_ratio = stage.mesh_damping_ratio = 0;
+  std::erase_if(stage.space->bearings, [](const LinearBearing& b) { return b.on.kind == Kind::housing; });
+  const auto system = assemble(stage);
+  const double speed = stage.carrier_speed, a = stage.carrier.radius;
+  // Of a tilt (about x, about y) of everything.
+  const auto motion = [&](const Eigen::Vector2d& tilt) {
+    Eigen::VectorXd q = Eigen::VectorXd::Zero(system.dofs());
+    for (const auto& [name, radius] : {std::pair<std::string, double>{"sun", stage.sun.radius},
+                                       {"ring", stage.ring.radius},
+                                       {"carrier", stage.carrier.radius}}) {
+      q[system.find(name + "_tiltx")] = radius * tilt[0];
+      q[system.find(name + "_tilty")] = radius * tilt[1];
+    }
+    for (int n = 0; n < 3; ++n) {
+      const double phi = stage.planet_angles[static_cast<std::size_t>(n)];
+      const auto name = "planet" + std::to_string(n + 1);
+      const double radial = std::cos(phi) * tilt[0] + std::sin(phi) * tilt[1];
+      const double tangential = -std::sin(phi) * tilt[0] + std::cos(phi) * tilt[1];
+      q[system.find(name + "_tiltx")] = stage.planet.radius * radial;
+      q[system.find(name + "_tilty")] = stage.planet.radius * tangential;
+      q[system.find(name + "_z")] = -a * tangential;
+    }
+    return q;
+  };
+  const Eigen::Vector2d tilt(0.6e-3, -0.3e-3), rate(speed * tilt[1], -speed * tilt[0]);
+  const Eigen::VectorXd q = motion(tilt), v = motion(rate), w = -speed * speed * q;
+  const Eigen::MatrixXd stiffness = stiffness_with_meshes(system, mean_tangents(system));
+  const Eigen::VectorXd inertia = system.mass() * w;
+  const Eigen::VectorXd rest = inertia + system.gyroscopic() * v + (stiffness + system.rotating_stiffness()) * q;
+  record.at_most("forces left over, of the largest inertia force", "",
+                 rest.cwiseAbs().maxCoeff() / inertia.cwiseAbs().maxCoeff(), 1e-6, "rounding of stiff springs");
 }
 
 // Bodies held in the middle of a spur face neither move along the axis nor tilt: the response is that of the plane.

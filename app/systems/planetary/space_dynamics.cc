@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
@@ -14,8 +15,10 @@
 #include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/stage_members.h"
 #include "core/errors.h"
+#include "core/log.h"
 #include "dynamics/systems/planetary/working_point.h"
 #include "fem/face_shape.h"
+#include "fem/problem/solved_face.h"
 
 namespace annulus::app {
 
@@ -28,6 +31,16 @@ dynamics::StageSpace::TiltInertia tilt_inertia(const Scene& scene, const GearGeo
   const auto& given = scene.own<SpaceInput>().tilt_inertia;
   const auto& set = geometry.rings.at(ring).set;
   const auto& input = scene.rings.at(ring);
+  for (const auto& [tilting, about_axis, name] : {std::tuple{&given.sun, *scene.sun.inertia, "sun"},
+                                                  {&given.ring, *input.inertia, "ring"},
+                                                  {&given.carrier, *scene.carrier.inertia, "carrier"},
+                                                  {&given.planet, *scene.planet.inertia, "planet"}})
+    if (*tilting && **tilting < about_axis / 2)
+      throw InputError(
+          with_place(scene, fmt::format("tilt_inertia.{0}_kg_m2 = {1:g}: less than half of {0}.inertia_kg_m2 "
+                                        "= {2:g}, which no body has; it is that about an axis across the "
+                                        "body's own",
+                                        name, **tilting, about_axis)));
   const auto width = [](const geometry::Gear& gear) { return gear.parameters().face_width; };
   return {given.sun.value_or(of_cylinder(*scene.sun.mass, *scene.sun.inertia, width(set.sun()))),
           given.ring.value_or(of_cylinder(*input.mass, *input.inertia, width(set.ring()))),
@@ -45,20 +58,22 @@ bool depends_on_direction(const BearingInput& b) {
   return in_housing && (!b.matrix.empty() || (b.x && b.y && *b.x != *b.y));
 }
 
-std::string quoted(const std::vector<std::string>& names) { return fmt::format("'{}'", fmt::join(names, "', '")); }
-
 }  // namespace
 
 bool moves_in_space(const Scene& scene) {
   const auto& space = scene.own<SpaceInput>();
-  return !space.bearings.empty() || std::any_of(space.loads.begin(), space.loads.end(), [](const LoadInput& load) {
-    return load.frame == dynamics::StageFrame::carrier || load.body == dynamics::StageBody::Kind::planet;
+  const bool stands_still = scene.stage.held == geometry::StageMember::carrier;
+  return !space.bearings.empty() || std::any_of(space.loads.begin(), space.loads.end(), [&](const LoadInput& load) {
+    return stands_still || load.frame == dynamics::StageFrame::carrier;
   });
 }
 
-bool has_bearing(const Scene& scene, dynamics::StageBody::Kind body) {
+bool has_radial_bearing(const Scene& scene, dynamics::StageBody::Kind body) {
   const auto& bearings = scene.own<SpaceInput>().bearings;
-  return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
+  return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) {
+    return b.body == body && !b.planet &&
+           (b.radial || b.x || b.y || b.rollers || !b.displacement.empty() || !b.matrix.empty());
+  });
 }
 
 void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const GearGeometry& geometry, std::size_t ring,
@@ -67,7 +82,10 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
     throw InputError(with_place(scene,
                                 "dynamics.rim_coupling = \"elastic\": a ring in [[bearing]] tables has no elastic "
                                 "modes; use \"static\" or \"automatic\""));
-  const auto spatial = make_spatial_stage(scene, geometry, ring, sun_mesh, ring_mesh, {});
+  auto spatial = make_spatial_stage(scene, geometry, ring, sun_mesh, ring_mesh, {});
+  spatial.plane.planet.mass = stage.planet.mass;
+  for (const auto& [face, mesh] : {std::pair{&spatial.sun_face, &sun_mesh}, {&spatial.ring_face, &ring_mesh}})
+    if (mesh->face) face->symmetric = fem::asymmetry_of_face(*mesh->model.problem).empty();
   try {
     stage.space = dynamics::space_about_equilibrium(spatial, tilt_inertia(scene, geometry, ring));
   } catch (const InputError& error) {
@@ -85,43 +103,48 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
   const auto& space = scene.own<SpaceInput>();
   std::vector<Warning> list;
   if (!space.any()) return list;
-  std::vector<std::string> left_out;
-  if (space.gravity) left_out.emplace_back("[gravity]");
   const auto frame = spatial_frame(scene, geometry, 0);
+  const bool moves = moves_in_space(scene), turns = frame.plane.carrier_speed != 0;
+  std::vector<std::string> left_out;
+  if (space.gravity && (!moves || turns)) left_out.emplace_back("[gravity]");
   for (const auto& load : frame.loads)
-    if (dynamics::stands_in_housing(load)) left_out.push_back("load '" + load.name + "'");
-  if (!moves_in_space(scene)) {
-    if (left_out.empty())
-      for (const auto& load : frame.loads) left_out.push_back("load '" + load.name + "'");
+    if (!moves || (turns && dynamics::stands_in_housing(load))) left_out.push_back("load '" + load.name + "'");
+  if (!moves) {
     list.push_back({"loads_left_out", Severity::warning,
-                    fmt::format("{} {} part in annulus statics alone: the dynamics has no bodies that move along the "
-                                "axis or tilt, because no [[bearing]] lets them",
+                    fmt::format("{} {} part in annulus statics alone: without [[bearing]] tables no body moves along "
+                                "the axis or tilts in the dynamics",
                                 fmt::join(left_out, ", "), left_out.size() > 1 ? "take" : "takes")});
     return list;
   }
   if (!left_out.empty())
-    list.push_back(
-        {"loads_left_out", Severity::warning,
-         fmt::format("of {} the dynamics has the part along the axis, and the stiffness that bearings in the "
-                     "housing have under it. It has no loads past which the carrier turns: what they do to "
-                     "load sharing and K_Hβ is in annulus statics",
-                     fmt::join(left_out, ", "))});
+    list.push_back({"loads_left_out", Severity::warning,
+                    fmt::format("the dynamics has only the part along the axis of {}, and the stiffness that bearings "
+                                "in the housing have under all of it. The rest turns past the carrier: what it does to "
+                                "load sharing and K_Hβ is in annulus statics",
+                                fmt::join(left_out, ", "))});
+  if (space.gravity && (space.gravity->sun != 0 || space.gravity->planet != 0 || space.gravity->ring != 0 ||
+                        space.gravity->carrier != 0))
+    list.push_back({"mass_in_middle", Severity::warning,
+                    "the dynamics has the centres of mass of all bodies in the middle of the face of [stage]; those of "
+                    "[gravity] act in annulus statics"});
   std::vector<std::string> bent, directed;
   for (const auto& b : space.bearings) {
-    if (bends(b)) bent.push_back(b.name);
-    if (depends_on_direction(b)) directed.push_back(b.name);
+    if (bends(b)) bent.push_back("'" + b.name + "'");
+    if (depends_on_direction(b)) directed.push_back("'" + b.name + "'");
   }
+  if (scene.supports.planet_clearance > 0 && !has_radial_bearing(scene, dynamics::StageBody::Kind::planet))
+    bent.emplace_back("supports.planet_clearance_um");
   if (!bent.empty())
     list.push_back({"bearings_linear", Severity::warning,
                     fmt::format("the dynamics has the stiffness of bearing {} at the equilibrium at time 0, and the "
                                 "force that it bears there. Motions that change its load by a large part of it are not "
                                 "right; annulus statics has its whole law",
-                                quoted(bent))});
+                                fmt::join(bent, ", "))});
   if (!directed.empty())
     list.push_back({"bearings_averaged", Severity::warning,
                     fmt::format("the stiffness of bearing {} in the housing depends on the direction; the dynamics has "
                                 "its mean over a turn of the carrier",
-                                quoted(directed))});
+                                fmt::join(directed, ", "))});
   std::vector<std::string> assumed;
   for (const auto& [value, key] : {std::pair{&space.tilt_inertia.sun, "sun"},
                                    {&space.tilt_inertia.ring, "ring"},
@@ -129,10 +152,12 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
                                    {&space.tilt_inertia.planet, "planet"}})
     if (!*value) assumed.push_back(fmt::format("tilt_inertia.{}_kg_m2", key));
   if (!assumed.empty())
-    list.push_back({"tilt_inertia_assumed", Severity::warning,
-                    fmt::format("as of a uniform cylinder as wide as the face, because the scene does not mention {}. "
-                                "Natural frequencies of tilting modes depend on it",
-                                fmt::join(assumed, ", "))});
+    list.push_back(
+        {"tilt_inertia_assumed", Severity::warning,
+         fmt::format("tilt inertias are those of uniform cylinders as wide as the face, because the scene does not "
+                     "mention {}. "
+                     "Natural frequencies of tilting modes depend on it",
+                     fmt::join(assumed, ", "))});
   // Which faces are even is known once the meshes are solved.
   auto assumptions = space_warnings(scene, 0, frame, {});
   std::erase_if(assumptions, [](const Warning& w) { return w.key == "even_faces"; });
@@ -146,10 +171,15 @@ std::shared_ptr<const FaceShape> face_in_motion(const MeshResult& mesh, double m
   constexpr int phases = 16;
   const double normal = mesh_force / std::cos(mesh.model.problem->pair.pinion().base_helix_angle());
   const auto id = identity_of(mesh.model.id(), mesh.fact("level"), mesh.fact("degree"), normal, phases);
-  const auto [shape, reused] = cached_value(options.store.get(), "faces", id,
-                                            [&] { return fem::reduced_face(*solid, normal, phases, options.threads); });
-  note_reuse(options, fmt::format("face of the {} mesh", mesh.model.mesh), reused);
-  return std::make_shared<const FaceShape>(shape);
+  try {
+    const auto [shape, reused] = cached_value(
+        options.store.get(), "faces", id, [&] { return fem::reduced_face(*solid, normal, phases, options.threads); });
+    note_reuse(options, fmt::format("face of the {} mesh", mesh.model.mesh), reused);
+    return std::make_shared<const FaceShape>(shape);
+  } catch (const SolverError& error) {  // the face is then even, which face_warnings() says
+    log::info(fmt::format("{} mesh: {}", mesh.model.mesh, error.what()));
+    return nullptr;
+  }
 }
 
 std::vector<Warning> face_warnings(const MeshResult& sun_mesh, const MeshResult& ring_mesh, double accuracy,

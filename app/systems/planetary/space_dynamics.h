@@ -17,7 +17,8 @@ namespace annulus::app {
 /// Whether [[bearing]] or [[load]] tables take part in the dynamics.
 [[nodiscard]] bool moves_in_space(const Scene& scene);
 
-[[nodiscard]] bool has_bearing(const Scene& scene, dynamics::StageBody::Kind body);
+/// Whether a body, or every planet, has a [[bearing]] that holds it radially.
+[[nodiscard]] bool has_radial_bearing(const Scene& scene, dynamics::StageBody::Kind body);
 
 /// Replaces the supports of a stage in the plane by its bearings. Throws InputError where something moves freely.
 void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const GearGeometry& geometry, std::size_t ring,

@@ -185,7 +185,9 @@ Table load_table() {
 }
 
 Table gravity_table() {
-  Declarations<GravityInput> gravity("gravity", "Weight of all bodies (annulus statics).",
+  Declarations<GravityInput> gravity("gravity",
+                                     "Weight of all bodies. The dynamics has its part along the axis alone; annulus "
+                                     "statics all of it.",
                                      [](Scene& s, std::size_t) -> GravityInput& {
                                        auto& g = s.own<SpaceInput>().gravity;
                                        return g ? *g : g.emplace();
@@ -271,14 +273,18 @@ class SpaceChecks : KeyChecks {
  private:
   template <class List>
   void names(const std::string& key, const List& list) {
-    const auto printable = [](unsigned char c) { return c >= ' ' && c != 127; };
+    const auto printable = [](unsigned char c) { return c >= ' ' && c != 127 && c != ',' && c != '"'; };
+    const auto column = [](std::string name) {
+      std::replace(name.begin(), name.end(), ' ', '_');
+      return name;
+    };
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (!usable(key, i)) continue;
       const auto& name = list[i].name;
       if (name.empty() || !std::all_of(name.begin(), name.end(), printable))
-        problem(key, i, "names it in tables: not empty, without line breaks and tabs");
+        problem(key, i, "names it in tables: not empty, without line breaks, tabs, commas and quotes");
       for (std::size_t j = 0; j < i; ++j)
-        if (list[j].name == name) {
+        if (column(list[j].name) == column(name)) {
           problem(key, i, "is the name of more than one; each needs its own");
           break;
         }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "core/radial_bearing.h"
 #include "core/units.h"
@@ -65,6 +67,17 @@ void add_bearings(StageMotion& motion, const dynamics::StageMotion& found, const
   motion.held_torque_mean = reaction.torque.mean();
 }
 
+/// Of those that are known.
+std::pair<double, double> known_range(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  std::pair<double, double> range{not_known, not_known};
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    range.first = std::isnan(range.first) ? value : std::min(range.first, value);
+    range.second = std::isnan(range.second) ? value : std::max(range.second, value);
+  }
+  return range;
+}
+
 double mean_of(const Eigen::VectorXd& values) { return values.size() == 0 ? not_known : values.mean(); }
 
 void add_space(StageMotion& motion, const dynamics::SpaceMotion& found, int cycles) {
@@ -85,10 +98,14 @@ void add_space(StageMotion& motion, const dynamics::SpaceMotion& found, int cycl
     add_column(csv, name + "_moment_max_N_m", in_cycles(moment).largest);
   }
   for (const auto& mesh : found.meshes) {
-    const auto in_cycles = dynamics::over_cycles(mesh.place, cycles);
-    motion.meshes.push_back({mesh.name, mesh.place.mean(), mesh.place.minCoeff(), mesh.place.maxCoeff()});
-    add_column(csv, mesh.name + "_place_min_m", in_cycles.smallest);
-    add_column(csv, mesh.name + "_place_max_m", in_cycles.largest);
+    const Eigen::Index samples = mesh.place.size() / cycles;
+    Eigen::VectorXd smallest(cycles), largest(cycles);
+    for (int c = 0; c < cycles; ++c)
+      std::tie(smallest[c], largest[c]) = known_range(mesh.place.segment(c * samples, samples));
+    const auto [low, high] = known_range(mesh.place);
+    motion.meshes.push_back({mesh.name, mesh.mean_place, low, high});
+    add_column(csv, mesh.name + "_place_min_m", smallest);
+    add_column(csv, mesh.name + "_place_max_m", largest);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "app/results/content_id.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "core/errors.h"
+#include "core/file_guard.h"
 #include "core/files.h"
 #include "dynamics/figures/spectrum.h"
 
@@ -172,7 +173,7 @@ void save(const StageResponse& response, const std::string& id, const std::files
   const std::vector<std::pair<std::string, std::string>> header = {{"annulus_version", version()}, {"inputs_id", id}};
   for_each_stage_table(response, [&](const char* name, Csv table) {
     if (table.columns.empty()) {  // of another kind of stage
-      std::filesystem::remove(folder / name);
+      remove_file(folder / name);
       return;
     }
     table.header = header;

@@ -50,7 +50,7 @@ std::vector<std::string> rigid_unasked(const Scene& scene) {
   for (const auto& [body, key] : {std::pair{dynamics::StageBody::Kind::planet, "supports.planet_N_per_m"},
                                   {dynamics::StageBody::Kind::carrier, "supports.carrier_N_per_m"},
                                   {dynamics::StageBody::Kind::ring, "supports.ring_N_per_m"}})
-    if (has_bearing(scene, body)) std::erase(keys, key);
+    if (has_radial_bearing(scene, body)) std::erase(keys, key);
   return keys;
 }
 

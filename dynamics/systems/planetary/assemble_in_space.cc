@@ -187,7 +187,10 @@ class SpaceBodies {
     builder_.add_rotating_stiffness(planet.y, carrier.u, 2 * centrifugal);
     builder_.add_rotating_stiffness(carrier.u, carrier.u, -centrifugal);
     builder_.add_rotating_stiffness(translation, carrier.u, -2 * centrifugal);
-    builder_.add_rotating_stiffness(tilt, tilt, centrifugal);
+    // The radial direction of the seat tilts with the carrier: m a Omega^2 (-a tilt^2 / 2 - z tilt) of a planet at z.
+    builder_.add_rotating_stiffness(tilt, tilt, -centrifugal);
+    builder_.add_rotating_stiffness(planet.z, tilt, -2 * centrifugal);
+    builder_.add_rotating_stiffness(carrier.z, tilt, 2 * centrifugal);
   }
 
   void add_spring(const LinearBearing& bearing) {

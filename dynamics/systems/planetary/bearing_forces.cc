@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "dynamics/figures/motion.h"
 #include "dynamics/systems/planetary/space_motion.h"
+#include "dynamics/systems/planetary/stage_forms.h"
 
 namespace annulus::dynamics {
 
@@ -31,6 +32,7 @@ class Motion {
   }
 
   [[nodiscard]] Eigen::RowVectorXd displacement(const std::string& dof) const { return row(series_.displacement, dof); }
+  [[nodiscard]] const std::string& dof(int index) const { return system_.names()[static_cast<std::size_t>(index)]; }
   [[nodiscard]] bool moves(const std::string& dof) const { return system_.find(dof) >= 0; }
   /// A sum of factor x DOF over time.
   struct Course {
@@ -78,9 +80,31 @@ Direction across(Direction direction) {
   return direction == Direction::radial ? Direction::tangential : Direction::radial;
 }
 
+/// Coordinate of a planet in space as names of DOFs and factors.
+std::vector<std::pair<std::string, double>> planet_form(const PlanetaryStage& stage, const Motion& motion, int n,
+                                                        Direction direction) {
+  LumpedSystemBuilder builder;
+  const auto forms = add_bodies_in_space(builder, stage);
+  const auto& planet = forms.planets[static_cast<std::size_t>(n)];
+  std::vector<std::pair<std::string, double>> named;
+  for (const auto& [dof, factor] : direction == Direction::radial ? planet.x : planet.y)
+    named.emplace_back(motion.dof(dof), factor);
+  return named;
+}
+
+/// Transverse load on a body in space, N, in its axes.
+Eigen::Vector2d space_load(const PlanetaryStage& stage, const StageBody& body) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  if (stage.space)
+    for (const auto& load : stage.space->loads)
+      if (load.body == body) sum += load.load.head<2>();
+  return sum;
+}
+
 /// Motion of planet n in its radial or tangential coordinate, whether it has the DOF or rides on the carrier.
 Motion::Course planet_course(const PlanetaryStage& stage, Motion& motion, int n, Direction direction) {
   const bool radial = direction == Direction::radial;
+  if (stage.space) return motion.course(planet_form(stage, motion, n, direction));
   const auto dof = "planet" + std::to_string(n + 1) + (radial ? "_x" : "_y");
   if (motion.moves(dof)) return motion.course({{dof, 1}});
   const double c = std::cos(stage.planet_angles[n]), s = std::sin(stage.planet_angles[n]);
@@ -118,8 +142,9 @@ BearingForces pin_forces(const PlanetaryStage& stage, const TimeSeries& series, 
   BearingForces result;
   result.radial.resize(stage.planets(), series.time.size());
   result.tangential.resize(stage.planets(), series.time.size());
-  const double centrifugal =
-      stage.rotating_frame ? stage.planet.mass * stage.carrier.radius * stage.carrier_speed * stage.carrier_speed : 0;
+  const double centrifugal = stage.rotating_frame && !stage.space
+                                 ? stage.planet.mass * stage.carrier.radius * stage.carrier_speed * stage.carrier_speed
+                                 : 0;  // in space one of its loads
   Eigen::Index with_play = 2 * static_cast<Eigen::Index>(stage.planets());
   for (int n = 0; n < stage.planets(); ++n) {
     if (stage.planet_bearing(n).play > 0) {
@@ -130,19 +155,30 @@ BearingForces pin_forces(const PlanetaryStage& stage, const TimeSeries& series, 
     for (const auto direction : {Direction::radial, Direction::tangential}) {
       const bool radial = direction == Direction::radial;
       const auto name = "planet" + std::to_string(n + 1) + (radial ? "_bearing_radial" : "_bearing_tangential");
-      const auto* spring = motion.spring(name);
+      const auto* spring = stage.space ? nullptr : motion.spring(name);
       (radial ? result.radial : result.tangential).row(n) =
           spring ? motion.force(*spring) : pin_force_by_equilibrium(stage, series, motion, n, direction);
     }
-    result.radial.row(n).array() += centrifugal;
+    const Eigen::Vector2d load = space_load(stage, {StageBody::Kind::planet, n});
+    result.radial.row(n).array() += centrifugal + load[0];
+    result.tangential.row(n).array() += load[1];
   }
   return result;
+}
+
+StageBody::Kind kind_of(StageMember member) {
+  return member == StageMember::sun    ? StageBody::Kind::sun
+         : member == StageMember::ring ? StageBody::Kind::ring
+                                       : StageBody::Kind::carrier;
 }
 
 /// Sum of all forces on the body without its supports.
 SupportReaction applied(const PlanetaryStage& stage, const TimeSeries& series, Motion& motion, StageMember member) {
   const auto zero = Eigen::VectorXd::Zero(series.time.size());
   SupportReaction sum{zero, zero, zero};
+  const Eigen::Vector2d load = space_load(stage, {kind_of(member)});
+  sum.x.array() += load[0];
+  sum.y.array() += load[1];
   if (member == StageMember::carrier) {
     const auto pins = pin_forces(stage, series, motion);
     for (int n = 0; n < stage.planets(); ++n) {
@@ -169,17 +205,13 @@ SupportReaction applied(const PlanetaryStage& stage, const TimeSeries& series, M
 std::optional<Eigen::MatrixXd> bearings_on_housing(const PlanetaryStage& stage, const TimeSeries& series,
                                                    StageMember member) {
   if (!stage.space) return std::nullopt;
-  const auto kind = member == StageMember::sun    ? StageBody::Kind::sun
-                    : member == StageMember::ring ? StageBody::Kind::ring
-                                                  : StageBody::Kind::carrier;
+  const auto kind = kind_of(member);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(2, series.time.size());
   const auto motion = space_motion(stage, series);
-  for (std::size_t i = 0; i < motion.bearings.size(); ++i) {
-    const auto& b = stage.space->bearings[i];
-    if (b.body.kind != kind || b.on.kind != StageBody::Kind::housing) continue;
-    if (b.rigid[0] || b.rigid[1]) return std::nullopt;
-    sum -= motion.bearings[i].force.topRows<2>();
-  }
+  for (const auto& b : stage.space->bearings)
+    if (b.body.kind == kind && b.on.kind == StageBody::Kind::housing && (b.rigid[0] || b.rigid[1])) return std::nullopt;
+  for (const auto& b : motion.bearings)
+    if (b.body.kind == kind && b.on.kind == StageBody::Kind::housing) sum -= b.force.topRows<2>();
   return sum;
 }
 

@@ -13,15 +13,19 @@ namespace annulus::dynamics {
 struct SpaceMotion {
   struct Bearing {
     std::string name;  ///< LinearBearing::element()
+    StageBody body, on;
     /// N, N m: x, y, z, about x, about y in the axes of the body, on the body, x times; without its dampers. Not known
     /// in rigid coordinates.
     Eigen::MatrixXd force;
   };
+  static constexpr double light = 0.05;  ///< of the mean force: where a mesh carries less, its place says nothing
   struct Mesh {
     std::string name;
-    Eigen::VectorXd place;  ///< m, z of the resultant from the middle of the common face; not known without force
+    double mean_place = 0;  ///< m, of the mean force and moment
+    /// m, z of the resultant from the middle of the common face; not known of light forces.
+    Eigen::VectorXd place;
   };
-  std::vector<Bearing> bearings;  ///< as in StageSpace
+  std::vector<Bearing> bearings;  ///< those of StageSpace that give way
   std::vector<Mesh> meshes;       ///< sun meshes, then ring meshes
 };
 /// Empty for a plane stage. `series` must belong to the stage.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
 #include <utility>
 
 #include "core/errors.h"
@@ -32,6 +33,13 @@ void StageSpace::check(int planets) const {
     check_positive(inertia, fmt::format("tilting inertia of the {}", name));
   for (const auto& [face, name] : {std::pair{&sun_face, "sun"}, {&ring_face, "ring"}}) {
     check_positive(face->width, fmt::format("face width of the {} meshes", name));
+    if (!std::isfinite(face->middle))
+      throw InputError(fmt::format("the middle of the face of the {} meshes is {} m", name, face->middle));
+    if (const auto* shape = face->shape.get();
+        shape && (shape->slope.empty() || shape->slope.size() != shape->curvature.size() ||
+                  shape->slope.size() != shape->gap_slope.size()))
+      throw InputError(fmt::format("the face of the {} meshes has {} slopes, {} curvatures and {} gaps over its phases",
+                                   name, shape->slope.size(), shape->curvature.size(), shape->gap_slope.size()));
     if (!face->gap.empty() && face->gap.size() != face_places().size())
       throw InputError(fmt::format("the face of the {} meshes has {} gaps for {} places", name, face->gap.size(),
                                    face_places().size()));
@@ -44,12 +52,20 @@ void StageSpace::check(int planets) const {
   for (const auto& b : bearings) {
     check_body(b.body, "bearing '" + b.name + "'");
     check_body(b.on, "bearing '" + b.name + "'");
-    if (!b.stiffness.allFinite() || !b.preload.allFinite())
-      throw InputError(fmt::format("bearing '{}' has a stiffness or force that is not finite", b.name));
+    if (!b.stiffness.allFinite() || !b.preload.allFinite() || !std::isfinite(b.place))
+      throw InputError(fmt::format("bearing '{}' has a stiffness, force or place that is not finite", b.name));
+    constexpr double rounding = 1e-9;
+    if (const double skew = (b.stiffness - b.stiffness.transpose()).cwiseAbs().maxCoeff();
+        skew > rounding * b.stiffness.cwiseAbs().maxCoeff())
+      throw InputError(fmt::format("the stiffness of bearing '{}' differs from its transpose by {:g}", b.name, skew));
     if (b.on.kind == StageBody::Kind::planet || b.body.kind == StageBody::Kind::housing)
       throw InputError(fmt::format("bearing '{}' supports the housing or stands on a planet", b.name));
   }
-  for (const auto& load : loads) check_body(load.body, "a load");
+  for (const auto& load : loads) {
+    check_body(load.body, "a load");
+    if (load.body.kind == StageBody::Kind::housing || !load.load.allFinite())
+      throw InputError(fmt::format("a load on the {} is not finite or acts on the housing", name_of_body(load.body)));
+  }
 }
 
 const std::vector<FacePlace>& face_places() {

@@ -97,19 +97,74 @@ bool stands_in_housing(const StageLoad& load) {
          (load.force.head<2>().any() || load.moment.head<2>().any() || load.point.head<2>().any());
 }
 
-StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::TiltInertia& inertia) {
-  // Of what stands in the housing, the part along the axis stays the same as the carrier turns.
+namespace {
+
+/// The loads that act in the dynamics: of what the carrier turns past, the part along the axis. Planets have their
+/// centrifugal forces.
+SpatialStage without_standing_loads(const SpatialStage& stage) {
   auto turning = stage;
-  bool stands = stage.gravity.head<2>().any() && !stage.weights.empty();
-  turning.gravity.head<2>().setZero();
-  for (auto& load : turning.loads)
-    if (stands_in_housing(load)) {
-      stands = true;
-      load.point.head<2>().setZero();
-      load.force.head<2>().setZero();
-      load.moment.setZero();
-    }
-  const auto made = assemble(turning, 0), made_under_all = assemble(stage, 0);
+  const auto& plane = stage.plane;
+  if (plane.carrier_speed != 0) {
+    turning.gravity.head<2>().setZero();
+    for (auto& load : turning.loads)
+      if (stands_in_housing(load)) {
+        load.point.head<2>().setZero();
+        load.force.head<2>().setZero();
+        load.moment.setZero();
+      }
+  }
+  const double speed = plane.rotating_frame ? plane.carrier_speed : 0;
+  if (speed != 0)
+    for (int n = 0; n < stage.planets(); ++n)
+      turning.loads.push_back({"centrifugal force",
+                               {Kind::planet, n},
+                               StageFrame::planet,
+                               Eigen::Vector3d::Zero(),
+                               plane.planet.mass * plane.carrier.radius * speed * speed * Eigen::Vector3d::UnitX(),
+                               Eigen::Vector3d::Zero()});
+  return turning;
+}
+
+/// A load about the middle of its body, in the axes of the body, at time 0.
+SpaceLoad about_middle(const SpatialStage& stage, const StageLoad& load) {
+  const auto axes = frame_axes(stage, load.frame, load.body, 0);
+  const Eigen::Vector3d point = axes * load.point, force = axes * load.force;
+  const Eigen::Vector3d moment = axes * load.moment + point.cross(force);
+  const bool planet = load.body.kind == Kind::planet;
+  const auto own = frame_axes(stage, planet ? StageFrame::planet : StageFrame::carrier, load.body, 0);
+  SpaceLoad result{load.body};
+  result.load << own.transpose() * force, own.transpose() * moment;
+  return result;
+}
+
+/// Takes what holds along the axis and against tilting off a bearing.
+void flatten(LinearBearing& bearing) {
+  for (const Eigen::Index k : {2, 3, 4}) {
+    bearing.stiffness.row(k).setZero();
+    bearing.stiffness.col(k).setZero();
+    bearing.preload[k] = 0;
+    bearing.rigid.at(static_cast<std::size_t>(k)) = false;
+  }
+}
+
+/// Keeps a body in the plane.
+LinearBearing plane_guide(const StageBody& body) {
+  LinearBearing guide;
+  guide.name = "plane";
+  guide.body = body;
+  if (body.kind == Kind::planet) guide.on = {Kind::carrier};
+  guide.rigid = {false, false, true, true, true};
+  return guide;
+}
+
+}  // namespace
+
+StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::TiltInertia& inertia) {
+  const auto turning = without_standing_loads(stage);
+  const bool turns = stage.plane.carrier_speed != 0;
+  const bool stands = turns && ((stage.gravity.head<2>().any() && !stage.weights.empty()) ||
+                                std::any_of(stage.loads.begin(), stage.loads.end(), stands_in_housing));
+  const auto made = assemble(turning, 0), made_under_all = stands ? assemble(stage, 0) : made;
   const auto at = made.mechanism.solve();
   const auto under_all = stands ? made_under_all.mechanism.solve() : at;
   StageSpace space;
@@ -124,38 +179,39 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
   for (std::size_t i = 0; i < made.bearings.size(); ++i) {
     const auto& bearing = made.bearings[i];
     if (bearing.body.kind == Kind::pin) continue;
-    auto found = linear(bearing, at);
     const bool given = i < turning.bearings.size();
-    const bool on_housing = bearing.on.kind == Kind::housing && stage.plane.carrier_speed != 0;
+    const bool on_housing = bearing.on.kind == Kind::housing && turns;
+    auto found = on_housing && stands ? linear(made_under_all.bearings[i], under_all) : linear(bearing, at);
+    if (!given) found.name = bearing.body.kind == Kind::planet ? "bearing" : "support";
     if (on_housing && stands) {
-      found = linear(made_under_all.bearings[i], under_all);
       found.preload.head<2>().setZero();
       found.preload.tail<2>().setZero();
     }
     const bool directed = given && bearing.frame == StageFrame::housing &&
                           (turning.bearings[i].matrix || turning.bearings[i].x != turning.bearings[i].y);
     if (on_housing && (stands || directed)) found.stiffness = mean_over_turn(found.stiffness);
-    if (!in_space)
-      for (const std::size_t k : {2, 3, 4}) found.rigid.at(k) = true;
+    if (!in_space) flatten(found);
     const bool seated = stage.pin && bearing.body.kind == Kind::planet && bearing.on.kind == Kind::carrier;
     if (seated)
       of_planets[static_cast<std::size_t>(bearing.body.planet)].push_back(std::move(found));
     else
       space.bearings.push_back(std::move(found));
   }
-  for (const auto& list : of_planets)
-    if (!list.empty()) space.bearings.push_back(on_pin(list, *stage.pin));
-  for (const auto& load : turning.loads) {
-    SpaceLoad own{load.body, {}};
-    // Axes of the body: those of the load but for its kind of frame, which all agree at time 0 or along the axis.
-    const auto axes = frame_axes(stage, load.frame, load.body, 0);
-    const Eigen::Vector3d point = axes * load.point, force = axes * load.force;
-    const Eigen::Vector3d moment = axes * load.moment + point.cross(force);
-    const bool planet = load.body.kind == Kind::planet;
-    const auto body_axes = frame_axes(stage, planet ? StageFrame::planet : StageFrame::carrier, load.body, 0);
-    own.load << body_axes.transpose() * force, body_axes.transpose() * moment;
-    space.loads.push_back(own);
+  for (const auto& list : of_planets) {
+    if (list.empty()) continue;
+    space.bearings.push_back(on_pin(list, *stage.pin));
+    if (!in_space) flatten(space.bearings.back());
   }
+  if (!in_space) {
+    for (const auto kind : {Kind::sun, Kind::ring, Kind::carrier}) space.bearings.push_back(plane_guide({kind}));
+    for (int n = 0; n < stage.planets(); ++n) space.bearings.push_back(plane_guide({Kind::planet, n}));
+  }
+  for (const auto& load : turning.loads) space.loads.push_back(about_middle(stage, load));
+  const Eigen::Vector3d gravity = frame_axes(stage, StageFrame::housing, {}, 0) * turning.gravity;
+  for (const auto& weight : turning.weights)
+    space.loads.push_back(
+        about_middle(stage, {"weight", weight.body, StageFrame::carrier, weight.place * Eigen::Vector3d::UnitZ(),
+                             weight.mass * gravity, Eigen::Vector3d::Zero()}));
   return space;
 }
 
