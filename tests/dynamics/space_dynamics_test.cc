@@ -30,22 +30,9 @@ using namespace annulus::dynamics;
 namespace units = annulus::units;
 using Eigen::Vector3d;
 using Kind = StageBody::Kind;
+using stages::bearing;
 
 constexpr double pi = std::numbers::pi;
-
-StageBearing bearing(const std::string& name, StageBody body, StageBody on, double place, double radial, double axial,
-                     double tilt) {
-  StageBearing b;
-  b.name = name;
-  b.body = body;
-  b.on = on;
-  b.frame = body.kind == Kind::planet ? StageFrame::planet : StageFrame::housing;
-  b.place = place;
-  b.x = b.y = radial;
-  b.axial = axial;
-  b.tilt = tilt;
-  return b;
-}
 
 /// All bodies give way in all directions; the same for all planets.
 void add_all_bearings(SpatialStage& s) {

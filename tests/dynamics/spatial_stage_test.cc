@@ -19,22 +19,9 @@ using namespace annulus::dynamics;
 namespace units = annulus::units;
 using Eigen::Vector3d;
 using Kind = StageBody::Kind;
+using stages::bearing;
 
 constexpr double pi = std::numbers::pi;
-
-StageBearing bearing(const std::string& name, StageBody body, StageBody on, double place, double radial,
-                     double axial = 0, double tilt = 0) {
-  StageBearing b;
-  b.name = name;
-  b.body = body;
-  b.on = on;
-  b.frame = body.kind == Kind::planet ? StageFrame::planet : StageFrame::housing;
-  b.place = place;
-  b.x = b.y = radial;
-  b.axial = axial;
-  b.tilt = tilt;
-  return b;
-}
 
 /// Two rows per planet, two carrier bearings, a spline that centres the sun beside the face.
 void add_all_bearings(SpatialStage& s) {

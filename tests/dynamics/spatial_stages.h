@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "core/units.h"
 #include "dynamics/spatial/even_face.h"
@@ -21,6 +22,21 @@ inline StageFace even_face(double stiffness, double width, std::vector<double> g
     return std::make_shared<EvenFace>(stiffness, stations, gap);
   };
   return face;
+}
+
+/// With stiffnesses in N/m and N m/rad; planets' in their own frame.
+inline StageBearing bearing(const std::string& name, StageBody body, StageBody on, double place, double radial,
+                            double axial = 0, double tilt = 0) {
+  StageBearing b;
+  b.name = name;
+  b.body = body;
+  b.on = on;
+  b.frame = body.kind == StageBody::Kind::planet ? StageFrame::planet : StageFrame::housing;
+  b.place = place;
+  b.x = b.y = radial;
+  b.axial = axial;
+  b.tilt = tilt;
+  return b;
 }
 
 /// After the stage of the Gearbox Reliability Collaborative: 21/39/99 teeth, normal module 10 mm, three planets, helix
