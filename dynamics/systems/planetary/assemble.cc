@@ -196,7 +196,7 @@ void spread_meshes(std::vector<MeshElement>& meshes, LumpedSystemBuilder& builde
     const bool of_sun = static_cast<int>(m) < planets;
     const auto& [width, middle, gap, shape] = of_sun ? stage.space->sun_face : stage.space->ring_face;
     auto& mesh = meshes[m];
-    const auto [approach, tilt] = mesh_out_of_plane(stage, bodies, of_sun, n);
+    const auto [approach, tilt] = mesh_out_of_plane(stage, bodies, of_sun ? MeshWith::sun : MeshWith::ring, n);
     mesh.b = mesh.b + approach;
     FaceElement face{static_cast<int>(m), static_cast<int>(meshes.size() + m), mesh.half_backlash, {}, {}};
     double mean_square = square;

@@ -290,7 +290,8 @@ std::vector<LinearForm> relative_motion(const PlanetaryStage& stage, const Stage
 
 // With the normal n = c e + s z of the flanks and a contact at rho_T + z: n . (phi x rho) / c = phi . (rho_T x e) +
 // tan(beta_b) phi . (rho_T x z) + z phi . (z x e). The first term is the plane's u.
-MeshOutOfPlane mesh_out_of_plane(const PlanetaryStage& stage, const StageForms& bodies, bool of_sun, int planet) {
+MeshOutOfPlane mesh_out_of_plane(const PlanetaryStage& stage, const StageForms& bodies, MeshWith with, int planet) {
+  const bool of_sun = with == MeshWith::sun;
   const auto& space = *stage.space;
   const auto n = static_cast<std::size_t>(planet);
   const double phi = stage.planet_angles[n], tangent = std::tan(space.base_helix_angle);

@@ -35,7 +35,8 @@ struct StageForms {
 struct MeshOutOfPlane {
   LinearForm approach, tilt;
 };
-[[nodiscard]] MeshOutOfPlane mesh_out_of_plane(const PlanetaryStage& stage, const StageForms& bodies, bool of_sun,
+enum class MeshWith { sun, ring };
+[[nodiscard]] MeshOutOfPlane mesh_out_of_plane(const PlanetaryStage& stage, const StageForms& bodies, MeshWith wheel,
                                                int planet);
 
 }  // namespace annulus::dynamics
