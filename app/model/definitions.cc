@@ -41,6 +41,11 @@ const std::vector<Definition>& definitions() {
        "about the product of K_γ and K_V, and less if the planet with the largest share does not vibrate most. Do not "
        "multiply it by K_γ again.",
        "[ISO6336-1]"},
+      {"stable_motions", "", "Stable motions",
+       "number of different steady motions to which initial conditions lead at one speed and load",
+       "With backlash several motions may exist. What happened before decides which one runs; results are those of the "
+       "motion with the largest mesh force.",
+       ""},
       {"contact_loss", "", "Time without contact", "largest over the meshes of (time in which no tooth touches) / time",
        "Teeth separate where the vibration exceeds the mean deflection. Several motions may then exist.", ""},
       {"face_load_factor", "K_Hβ", "Face load factor", "K_Hβ = max over mesh cycles of w_max / w_mean",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/bytes.h"
+#include "dynamics/steady_state/branches.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "dynamics/system/mesh_excitation.h"
 
@@ -41,9 +42,18 @@ ANNULUS_MEMBERS(dynamics::IntegratorOptions, method, relative_tolerance, absolut
 ANNULUS_MEMBERS(dynamics::PeriodicOptions, samples, sampling_tolerance, max_samples, max_ahead, tolerance,
                 max_iterations);
 ANNULUS_MEMBERS(dynamics::SystemState, time, q, v, supplied, dissipated);
+/// The number of threads changes no result.
+template <>
+struct Members<dynamics::MotionSearch> {
+  template <class Archive>
+  static void pass(Archive& archive, dynamics::MotionSearch& search) {
+    annulus::pass(archive, search.starts);
+    annulus::pass(archive, search.size);
+  }
+};
 ANNULUS_MEMBERS(dynamics::SimulationOptions, steady_state, confirmation, sampling, beyond, tolerance_rule, keep_series,
                 periodic, integrator, start, mesh_cycles, steady_tolerance, max_windows, samples, min_window,
-                max_window, estimate_error);
+                max_window, estimate_error, other_motions);
 
 ANNULUS_MEMBERS(dynamics::PeriodicSolution, method, converged, trouble, residual, newton_iterations, linear_iterations,
                 sampling_difference, largest_multiplier);
@@ -52,7 +62,13 @@ ANNULUS_MEMBERS(dynamics::IntegratorChoice, method, reason, stability_step, impl
 ANNULUS_MEMBERS(dynamics::EnergyBalance, supplied, dissipated, change, relative);
 ANNULUS_MEMBERS(dynamics::IntegratorStatistics, steps, rhs_evaluations, jacobian_evaluations, contact_events,
                 stiffness_restarts);
+ANNULUS_MEMBERS(dynamics::FoundMotion, period, largest_force, contact_loss, starts, taken);
+ANNULUS_MEMBERS(dynamics::FoundMotions, starts, not_tried, list, undecided);
 ANNULUS_MEMBERS(dynamics::SteadyOutcome, window_cycles, whole_period, total_cycles, steady, confirmed,
-                steady_difference, periodic, integrator, energy, statistics, begin, end);
+                steady_difference, periodic, integrator, energy, statistics, motions, begin, end);
+
+ANNULUS_MEMBERS(dynamics::BranchPoint, input, largest_force, contact_loss, multiplier, stable);
+ANNULUS_MEMBERS(dynamics::BranchEvent, kind, input, error, before);
+ANNULUS_MEMBERS(dynamics::Branch, points, events, end);
 
 }  // namespace annulus

@@ -39,6 +39,7 @@ dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double 
   options.integrator.method = input.integrator;
   if (input.steps_per_cycle) options.integrator.fixed_step = 1 / (mesh_frequency * *input.steps_per_cycle);
   options.mesh_cycles = input.mesh_cycles;
+  options.other_motions.starts = input.starts;
   return options;
 }
 

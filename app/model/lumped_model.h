@@ -8,6 +8,7 @@
 
 #include "core/figure.h"
 #include "dynamics/figures/motion.h"
+#include "dynamics/steady_state/branches.h"
 
 namespace annulus::app {
 
@@ -37,22 +38,41 @@ class LumpedModel {
   using Answers = std::function<StudyPoint(Answer wanted)>;
   /// The motion followed from several initial conditions.
   using Starts = std::function<StartSpread(int count, int seed)>;
+  /// All results of the motion followed in time from a state at time 0 (null: from equilibrium), and its end.
+  struct FollowedPoint {
+    StudyPoint point{};
+    dynamics::SystemState end{};
+  };
+  using Follow = std::function<FollowedPoint(const dynamics::SystemState* start)>;
+  /// The system itself.
+  using Lumped = std::function<dynamics::LumpedCase()>;
+  /// What not every kind offers.
+  struct Abilities {
+    Starts starts{};
+    Follow follow{};
+    Lumped lumped{};
+  };
 
-  /// `id`: identity of everything the answers depend on. `starts`: empty for kinds that do not offer it.
-  LumpedModel(std::string id, Answers answers, Starts starts = {})
-      : id_(std::move(id)), answers_(std::move(answers)), starts_(std::move(starts)) {}
+  /// `id`: identity of everything the answers depend on.
+  LumpedModel(std::string id, Answers answers) : LumpedModel(std::move(id), std::move(answers), Abilities()) {}
+  LumpedModel(std::string id, Answers answers, Abilities abilities)
+      : id_(std::move(id)), answers_(std::move(answers)), abilities_(std::move(abilities)) {}
 
   [[nodiscard]] const std::string& id() const { return id_; }
   [[nodiscard]] StudyPoint answer(Answer wanted) const { return answers_(wanted); }
   [[nodiscard]] std::optional<StartSpread> starts(int count, int seed) const {
-    if (!starts_) return std::nullopt;
-    return starts_(count, seed);
+    if (!abilities_.starts) return std::nullopt;
+    return abilities_.starts(count, seed);
   }
+  [[nodiscard]] bool follows() const { return static_cast<bool>(abilities_.follow); }
+  [[nodiscard]] FollowedPoint followed(const dynamics::SystemState* start) const { return abilities_.follow(start); }
+  [[nodiscard]] bool has_branches() const { return static_cast<bool>(abilities_.lumped); }
+  [[nodiscard]] dynamics::LumpedCase lumped() const { return abilities_.lumped(); }
 
  private:
   std::string id_;
   Answers answers_;
-  Starts starts_;
+  Abilities abilities_;
 };
 
 /// One way to make and solve a lumped model, as the cost study measures it.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/model/found_motions.h"
 #include "app/model/gear_system.h"
 #include "core/units.h"
 
@@ -53,13 +54,8 @@ void warn_of_response(std::vector<Warning>& list, const SystemRun& run, std::siz
   for (const auto& entry : figures.entries())
     if (entry.key.ends_with("contact_loss") && std::isfinite(entry.figure.value))
       lost = std::max(lost, entry.figure.value);
-  if (lost > 0)
-    list.push_back(
-        {"other_steady_states", Severity::warning,
-         fmt::format(
-             "teeth separate for up to {:.2g} % of the time: other initial conditions may lead to other steady states",
-             100 * lost),
-         answer.name});
+  const auto motions = motion_warnings(run.responses.at(variant)->motions, lost, answer.name);
+  list.insert(list.end(), motions.begin(), motions.end());
   for (const auto* mesh : run.tables_of(variant)) {
     const auto own = mesh->model.mesh + "_peak_factor";
     const double factor = figures.value(figures.find(own) ? own : "peak_factor");

@@ -15,12 +15,20 @@
 /// What studies find: named figures of many responses to changed inputs, whatever the kind of the stage.
 namespace annulus::app {
 
+/// Branches of periodic motions over the input of a sweep.
+struct SweepBranches {
+  std::vector<dynamics::Branch> branches{};
+  std::string failure{};  ///< empty: none
+};
+
 struct SweepResult {
   SweepInput sweep;
-  std::string unit;                               ///< of the input, for people
-  std::vector<double> values;                     ///< in that unit
-  int tables = 0;                                 ///< how many of the values needed stiffness tables of their own
-  std::vector<std::vector<StudyPoint>> variants;  ///< [variant][value]
+  std::string unit;                                  ///< of the input, for people
+  std::vector<double> values;                        ///< in that unit
+  int tables = 0;                                    ///< how many of the values needed stiffness tables of their own
+  std::vector<std::vector<StudyPoint>> variants;     ///< [variant][value]; up where both directions are asked for
+  std::vector<std::vector<StudyPoint>> downwards{};  ///< the same down; empty where not both are asked for
+  std::vector<SweepBranches> branches{};             ///< by variant; empty where they are not asked for
 };
 
 /// Two inputs run through a grid.

@@ -14,6 +14,7 @@
 #include "app/scene/reference.h"
 #include "core/figure.h"
 #include "core/log.h"
+#include "dynamics/steady_state/other_motions.h"
 
 namespace annulus::app {
 
@@ -23,6 +24,7 @@ class GearSystem;
 struct RunResponse {
   virtual ~RunResponse() = default;
   FigureSet figures{};  ///< results by their keys, with errors
+  dynamics::FoundMotions motions{};
   bool reused = false;
   double seconds = 0;  ///< wall; little when it was read back
 };

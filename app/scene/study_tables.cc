@@ -18,7 +18,7 @@ const std::vector<Choice<SweepScale>> scales = {{"linear", SweepScale::linear},
 constexpr int most_study_values = 10000;
 
 /// Keys of one input and its values, their names behind a prefix.
-Table row_of_values(Declarations<SweepInput> row, const std::string& prefix) {
+void declare_row(Declarations<SweepInput>& row, const std::string& prefix) {
   row.study();
   row.key(prefix + "input", &SweepInput::input, std::string("Input to vary: ") + path_meaning).required();
   row.key(prefix + "from", &SweepInput::from, "First value, in the unit of the input.")
@@ -39,13 +39,23 @@ Table row_of_values(Declarations<SweepInput> row, const std::string& prefix) {
       .distinct()
       .instead_of({prefix + "from", prefix + "to", prefix + "count"})
       .absent("give from, to and count instead");
-  return row.done();
 }
 
 Table sweep_table() {
-  return row_of_values(
-      {"sweep", "One input takes a row of values, for every ring. Several tables are several sweeps.", &Scene::sweeps},
-      "");
+  Declarations<SweepInput> row(
+      "sweep", "One input takes a row of values, for every ring. Several tables are several sweeps.", &Scene::sweeps);
+  declare_row(row, "");
+  row.choice("direction", &SweepInput::direction,
+             {{"each", SweepDirection::each},
+              {"up", SweepDirection::up},
+              {"down", SweepDirection::down},
+              {"both", SweepDirection::both},
+              {"branches", SweepDirection::branches}},
+             "How the motion of each value is found. each: by itself. up, down: in time from that of the value before, "
+             "in rising or falling order, as when a machine runs up or down. both: up and down. branches: both, and "
+             "the branches of periodic motions between the ends, stable or not, with the values at which they jump.")
+      .fallback("each", "values do not depend on each other");
+  return row.done();
 }
 
 Table grid_table() {
@@ -55,7 +65,10 @@ Table grid_table() {
         [member](Scene& s, std::size_t i) -> SweepInput& { return s.grids.at(i).*member; },
         [](Scene& s, std::size_t n) { s.grids.resize(n); });
   };
-  Table grid = row_of_values(axis(&GridInput::x), "x_"), y = row_of_values(axis(&GridInput::y), "y_");
+  auto x_axis = axis(&GridInput::x), y_axis = axis(&GridInput::y);
+  declare_row(x_axis, "x_");
+  declare_row(y_axis, "y_");
+  Table grid = x_axis.done(), y = y_axis.done();
   std::move(y.parameters.begin(), y.parameters.end(), std::back_inserter(grid.parameters));
   return grid;
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/model/cost_actual.h"
+#include "app/model/found_motions.h"
 #include "app/model/run_warnings.h"
 #include "app/results/content_id.h"
 #include "app/sections/report_parts.h"
@@ -199,7 +200,17 @@ Blocks solution_checks(const std::vector<NamedOutcome>& responses) {
                                       found->whole_period ? "" : ", less than an error period"),
                           fmt::format("{} mesh cycles", found->total_cycles), small_text(force_balance),
                           small_text(found->energy.relative), fmt::format("{}", found->statistics.steps)});
-  return table.rows.empty() ? Blocks() : Blocks(table);
+  if (table.rows.empty()) return {};
+  Blocks blocks = table;
+  PageTable motions{.head = {"response", "stable motion", "largest mesh force, kN", "time without contact, %",
+                             "share of the starts, %", "results"}};
+  for (const auto& [name, found, force_balance] : responses)
+    for (const auto& m : found->motions.list)
+      motions.rows.push_back({name, period_text(m), fmt::format("{:.4g}", m.largest_force / 1e3),
+                              fmt::format("{:.2g}", 100 * m.contact_loss),
+                              fmt::format("{:.0f}", 100.0 * m.starts / found->motions.starts), m.taken ? "shown" : ""});
+  if (!motions.rows.empty()) blocks += motions;
+  return blocks;
 }
 
 Page run_page(const SystemRun& run, const RunPage& page) {

@@ -41,9 +41,38 @@ class SweepPictures {
         line.style = Series::Style::dots;
         line.dashed = false;
         plot.series.push_back(line);
+        if (sweep_.downwards.empty() || column == figure.beside) continue;
+        line.style = Series::Style::line;
+        line.label = (line.label.empty() ? "" : line.label + ", ") + std::string("down");
+        line.y = values_of(sweep_.downwards[variant], column, figure.scale);
+        line.colour = studies_.variants.size() + variant;
+        plot.series.push_back(line);
       }
     }
     return shows_something(plot) ? std::optional(plot) : std::nullopt;
+  }
+
+  /// Branches of periodic motions: stable parts drawn through, others dashed, one picture per variant.
+  [[nodiscard]] std::vector<Picture> branches() const {
+    std::vector<Picture> pictures;
+    for (std::size_t variant = 0; variant < sweep_.branches.size(); ++variant) {
+      const auto& name = studies_.variants[variant];
+      Plot plot = wide_plot((name.empty() ? "" : name + ": ") + "periodic motions", "largest mesh force, kN");
+      for (const auto& branch : sweep_.branches[variant].branches)
+        for (std::size_t first = 0; first + 1 < branch.points.size();) {
+          std::size_t last = first + 1;
+          while (last + 1 < branch.points.size() && branch.points[last].stable == branch.points[first].stable) ++last;
+          Series part{.label = "", .colour = variant, .dashed = !branch.points[first].stable};
+          for (std::size_t i = first; i <= last; ++i) {
+            part.x.push_back(branch.points[i].input);
+            part.y.push_back(branch.points[i].largest_force / 1e3);
+          }
+          plot.series.push_back(std::move(part));
+          first = last;
+        }
+      if (!plot.series.empty()) pictures.emplace_back(plot);
+    }
+    return pictures;
   }
 
   /// The lowest natural frequencies, one picture per variant; nothing when the input does not move them.
@@ -94,8 +123,12 @@ class SweepPictures {
     return plot;
   }
   [[nodiscard]] std::vector<double> values(std::size_t variant, const std::string& column, double scale) const {
+    return values_of(sweep_.variants[variant], column, scale);
+  }
+  [[nodiscard]] std::vector<double> values_of(const std::vector<StudyPoint>& points, const std::string& column,
+                                              double scale) const {
     std::vector<double> list;
-    for (const std::size_t i : order_) list.push_back(scale * sweep_.variants[variant][i].value(column));
+    for (const std::size_t i : order_) list.push_back(scale * points[i].value(column));
     return list;
   }
 
@@ -112,6 +145,27 @@ std::string dashed_caption(const std::vector<FigureSpec>& figures) {
     if (const auto* beside = figure.plotted ? find_figure(figures, figure.beside) : nullptr)
       titles += (titles.empty() ? "Dashed: " : "; ") + beside->title;
   return titles.empty() ? titles : titles + ".";
+}
+
+/// Where the stability of the branches changes.
+Blocks branch_table(const StudyResults& studies, const SweepResult& sweep) {
+  PageTable table{.head = {"ring", "branch", "event", with_unit(sweep.sweep.input, sweep.unit), "error"}};
+  Blocks blocks;
+  for (std::size_t variant = 0; variant < sweep.branches.size(); ++variant) {
+    const auto& found = sweep.branches[variant];
+    if (!found.failure.empty()) blocks += paragraph("Branches: " + found.failure);
+    for (std::size_t i = 0; i < found.branches.size(); ++i) {
+      for (const auto& e : found.branches[i].events)
+        table.rows.push_back(
+            {studies.variants[variant], std::to_string(i + 1),
+             std::string(to_string(e.kind)) + (e.kind == dynamics::BranchEvent::Kind::fold ? ": the motion jumps" : ""),
+             to_text(e.input, 6), small_text(e.error)});
+      if (!found.branches[i].end.empty())
+        blocks += paragraph(fmt::format("Branch {} ends within the range: {}.", i + 1, found.branches[i].end));
+    }
+  }
+  if (!table.rows.empty()) blocks += table;
+  return blocks;
 }
 
 Blocks one_sweep(const Scene& scene, const StudyResults& studies, std::size_t n) {
@@ -131,6 +185,12 @@ Blocks one_sweep(const Scene& scene, const StudyResults& studies, std::size_t n)
   const SweepPictures draw(studies, sweep);
   blocks += Pictures{result_pictures(studies, [&](const FigureSpec& figure) { return draw.result(figure); }),
                      legend_of(studies.variants), dashed_caption(studies.figures)};
+  if (const auto branches = draw.branches(); !branches.empty())
+    blocks += Pictures{branches,
+                       {},
+                       "Periodic motions that repeat with the excitation, followed through folds. Dashed: unstable; "
+                       "no machine stays there."};
+  blocks += branch_table(studies, sweep);
   if (const auto frequencies = draw.frequencies(); !frequencies.empty())
     blocks +=
         Pictures{frequencies, {}, "The lowest natural frequencies, with the tangent stiffness and without rotation."};

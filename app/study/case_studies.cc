@@ -5,6 +5,7 @@
 
 #include "app/model/run_options.h"
 #include "app/results/content_id.h"
+#include "app/study/directed_sweeps.h"
 #include "app/study/studies.h"
 #include "app/study/study_points.h"
 #include "core/csv.h"
@@ -51,6 +52,29 @@ void write_poincare(const StudySubject& subject, const std::string& file, const 
   }
 }
 
+/// Branches point by point; where stability changes stands in a file of its own, whose first column is a word.
+void write_branches(const StudySubject& subject, std::size_t sweep, const Header& header,
+                    const std::vector<SweepBranches>& branches) {
+  const auto input = file_name(subject.scene().sweeps.at(sweep).input);
+  for (std::size_t variant = 0; variant < branches.size(); ++variant) {
+    Csv csv{.header = {{"annulus_version", version()}},
+            .columns = {"branch", input, "mesh_force_max_N", "contact_loss", "largest_multiplier", "stable"},
+            .rows = {}};
+    csv.header.insert(csv.header.end(), header.begin(), header.end());
+    std::string events = fmt::format("# annulus_version: {}\nkind,branch,{},error\n", version(), input);
+    double number = 1;
+    for (const auto& branch : branches[variant].branches) {
+      for (const auto& p : branch.points)
+        csv.rows.push_back({number, p.input, p.largest_force, p.contact_loss, p.multiplier, p.stable ? 1.0 : 0.0});
+      for (const auto& e : branch.events)
+        events += fmt::format("{},{},{:.17g},{:.3g}\n", to_string(e.kind), number, e.input, e.error);
+      ++number;
+    }
+    csv.write(subject.folder(variant) / fmt::format("sweep_{}_branches.csv", sweep + 1));
+    write_file(subject.folder(variant) / fmt::format("sweep_{}_branch_events.csv", sweep + 1), events);
+  }
+}
+
 /// Variants by falling value of the ordering figure; empty when one failed.
 std::vector<std::size_t> order_of(const std::vector<StudyPoint>& variants, const std::string& figure) {
   std::vector<std::size_t> order(variants.size());
@@ -89,16 +113,32 @@ std::string sensitivity_csv(const StudySubject& subject, const SensitivityResult
 SweepResult run_sweep(const StudySubject& subject, std::size_t sweep) {
   const auto& input = subject.scene().sweeps.at(sweep);
   const auto cases = sweep_cases(subject.scene(), sweep);
-  auto points = run_cases(subject, cases, "sweep over " + input.input);
+  const auto label = "sweep over " + input.input;
   const auto unit = unit_of_input(subject.scene(), input.input);
   const Header header = {{"input", input.input}, {"unit", unit}};
-  write_points(subject, fmt::format("sweep_{}.csv", sweep + 1), header, cases, points);
-  write_poincare(subject, fmt::format("sweep_{}_poincare.csv", sweep + 1), header, cases, points);
-  return {.sweep = input,
-          .unit = unit,
-          .values = input.points(),
-          .tables = points.tables,
-          .variants = std::move(points.variants)};
+  SweepResult result{.sweep = input, .unit = unit, .values = input.points(), .variants = {}};
+  const auto take = [&](CasePoints points, const std::string& suffix) {
+    result.tables = std::max(result.tables, points.tables);
+    write_points(subject, fmt::format("sweep_{}{}.csv", sweep + 1, suffix), header, cases, points);
+    write_poincare(subject, fmt::format("sweep_{}_poincare{}.csv", sweep + 1, suffix), header, cases, points);
+    return std::move(points.variants);
+  };
+  if (input.direction == SweepDirection::each) {
+    result.variants = take(run_cases(subject, cases, label), "");
+    return result;
+  }
+  check_direction(subject, cases.front(), input.direction);
+  if (input.goes_up()) result.variants = take(run_in_order(subject, cases, SweepOrder::rising, label + ", up"), "");
+  if (input.goes_down()) {
+    auto down =
+        take(run_in_order(subject, cases, SweepOrder::falling, label + ", down"), input.goes_up() ? "_down" : "");
+    (input.goes_up() ? result.downwards : result.variants) = std::move(down);
+  }
+  if (input.direction == SweepDirection::branches) {
+    result.branches = find_branches(subject, sweep);
+    write_branches(subject, sweep, header, result.branches);
+  }
+  return result;
 }
 
 GridResult run_grid(const StudySubject& subject, std::size_t grid) {

@@ -43,6 +43,23 @@ Json points_json(Json json, const std::string& file,
   return json;
 }
 
+/// Where branches change their stability, and why some end within the range.
+Json branches_json(const SweepBranches& found) {
+  if (!found.failure.empty()) return {{"failure", found.failure}};
+  auto list = Json::array();
+  for (const auto& branch : found.branches) {
+    auto events = Json::array();
+    for (const auto& e : branch.events)
+      events.push_back({{"kind", to_string(e.kind)}, {"value", e.input}, {"error", json_number(e.error)}});
+    list.push_back({{"points", branch.points.size()},
+                    {"stable_throughout",
+                     std::all_of(branch.points.begin(), branch.points.end(), [](const auto& p) { return p.stable; })},
+                    {"events", std::move(events)},
+                    {"end", branch.end}});
+  }
+  return list;
+}
+
 }  // namespace
 
 Json variant_studies_json(const StudyResults& studies, std::size_t variant) {
@@ -60,9 +77,13 @@ Json variant_studies_json(const StudyResults& studies, std::size_t variant) {
   }
   for (std::size_t n = 0; n < studies.sweeps.size(); ++n) {
     const auto& sweep = studies.sweeps[n];
-    all["sweeps"].push_back(points_json({{"input", sweep.sweep.input}, {"unit", sweep.unit}},
-                                        fmt::format("sweep_{}.csv", n + 1), {{"values", sweep.values}}, studies,
-                                        sweep.variants.at(variant)));
+    auto json = points_json({{"input", sweep.sweep.input}, {"unit", sweep.unit}}, fmt::format("sweep_{}.csv", n + 1),
+                            {{"values", sweep.values}}, studies, sweep.variants.at(variant));
+    if (!sweep.downwards.empty())
+      json["down"] = points_json({{"input", sweep.sweep.input}}, fmt::format("sweep_{}_down.csv", n + 1),
+                                 {{"values", sweep.values}}, studies, sweep.downwards.at(variant));
+    if (!sweep.branches.empty()) json["branches"] = branches_json(sweep.branches.at(variant));
+    all["sweeps"].push_back(std::move(json));
   }
   for (std::size_t n = 0; n < studies.grids.size(); ++n) {
     const auto& grid = studies.grids[n];

@@ -161,6 +161,7 @@ ComparisonOptions comparison_options(const SteadyOutcome& nominal, const Simulat
   if (nominal.periodic) o.samples_per_cycle = std::min(o.samples_per_cycle, enough_samples(nominal.window_cycles));
   o.estimate_error = false;
   o.keep_series = false;
+  o.other_motions.starts = 0;  // all are compared on the nominal motion
   if (!o.mesh_cycles && (!nominal.periodic || !nominal.steady)) {
     // No steady state to compare, or one too long to integrate again and again: all are integrated in time over the
     // same length, from the nominal motion on, so that only the effect of the change has to settle.
@@ -194,6 +195,10 @@ FigureSet propagate_errors(const Evaluation& nominal, const TabulatedModel& mode
 
   FigureSet result;
   for (const auto& entry : nominal.figures.entries()) {
+    if (entry.key == motions_key) {  // all others are on the nominal motion, and look for no other
+      result.set(entry.key, entry.figure);
+      continue;
+    }
     ErrorParts parts;
     parts.integration = entry.figure.error;
     if (!model.meshes.empty()) parts.interpolation = interpolation.empty() ? not_known : interpolation.at(entry.key);

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "core/not_known.h"
+
 namespace annulus::dynamics {
 
 namespace {
@@ -17,6 +21,21 @@ FigureSpec steady_figure() {
           .term = "error_period",
           .better = Better::larger,
           .headline = true};
+}
+
+FigureSpec motions_figure() {
+  return {.key = motions_key,
+          .title = "Stable motions",
+          .definition =
+              "number of stable motions found from the initial conditions of dynamics.starts; results are "
+              "those of the motion with the largest mesh force. 1 where backlash is out of reach",
+          .term = "stable_motions",
+          .better = Better::smaller};
+}
+
+double number_of(const FoundMotions& motions) {
+  if (!motions.not_tried.empty()) return not_known;
+  return std::max<double>(1, static_cast<double>(motions.list.size()));
 }
 
 std::vector<FigureSpec> force_factor_figures(const std::string& prefix, const std::string& meshes,

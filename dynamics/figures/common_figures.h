@@ -5,12 +5,18 @@
 
 #include "core/figure.h"
 #include "dynamics/modes/modal_energy.h"
+#include "dynamics/steady_state/other_motions.h"
 
 /// Results that lumped models of all kinds have.
 namespace annulus::dynamics {
 
 /// "steady": whether a periodic steady state was found.
 [[nodiscard]] FigureSpec steady_figure();
+/// The number of stable motions that were found; 1 where backlash is out of reach, not known where others were not
+/// looked for although it is within reach.
+inline constexpr const char* motions_key = "stable_motions";
+[[nodiscard]] FigureSpec motions_figure();
+[[nodiscard]] double number_of(const FoundMotions& motions);
 /// K_V and K_γ K_V of meshes such as "the sun meshes", with keys `prefix`dynamic_factor and `prefix`peak_factor.
 /// `nominal_force` names what the latter refers to.
 [[nodiscard]] std::vector<FigureSpec> force_factor_figures(const std::string& prefix, const std::string& meshes,

@@ -75,13 +75,13 @@ double StaticSolver::residual(double t, const Eigen::VectorXd& q, LumpedSystem::
     w.force[m] = forces_[m] = w.elastic[m];
     if (is_open(system_, m, w)) forces_[m] += open_share * w.stiffness[m] * (w.approach[m] - anchor_[m]);
   }
-  residual_ = system_.load() - base_ * q - vectors_ * forces_;
+  residual_ = load_ - base_ * q - vectors_ * forces_;
   // A force carries the rounding of the motions and errors it is the difference of.
   Eigen::VectorXd sizes = vectors_.cwiseAbs().transpose() * q.cwiseAbs();
   for (int m = 0; m < forces_.size(); ++m)
     sizes[m] = std::abs(forces_[m]) +
                w.stiffness[m] * (sizes[m] + std::abs(w.error[m]) + system_.meshes()[m].half_backlash.value_or(0.0));
-  terms_ = system_.load().cwiseAbs() + base_size_ * q.cwiseAbs() + vectors_.cwiseAbs() * sizes;
+  terms_ = load_.cwiseAbs() + base_size_ * q.cwiseAbs() + vectors_.cwiseAbs() * sizes;
   return terms_.maxCoeff();
 }
 
@@ -127,7 +127,8 @@ Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
   // law that carries about its nominal load.
   Eigen::VectorXd q = Eigen::VectorXd::Zero(system_.dofs());
   tangent_.setZero(meshes, meshes);
-  Eigen::VectorXd load = system_.load();
+  load_ = system_.load_at(t);
+  Eigen::VectorXd load = load_;
   anchor_.setZero();
   int anchored = 0;
   for (int m = 0; m < meshes; ++m) {
@@ -162,7 +163,7 @@ Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
           pull = std::max(pull, std::abs(open_share * w.stiffness[m] * (w.approach[m] - anchor_[m])));
           anchor_[m] = w.approach[m];
         }
-      if (pull <= unseen * system_.load().lpNorm<Eigen::Infinity>() || anchored++ == enough) return q;
+      if (pull <= unseen * load_.lpNorm<Eigen::Infinity>() || anchored++ == enough) return q;
       continue;
     }
     // Changing all at once is fast but may cycle; one at a time, the worst first, ends it.

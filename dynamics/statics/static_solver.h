@@ -7,14 +7,14 @@
 
 namespace annulus::dynamics {
 
-/// Equilibrium without inertia, damping and rotation: K q + sum_m b_m F_m(t, b_m^T q - e_m(t)) = f, where F_m is the
-/// elastic force of a mesh (k g or its law).
+/// Equilibrium without inertia, damping and rotation: K q + sum_m b_m F_m(t, b_m^T q - e_m(t)) = f(t), where F_m is
+/// the elastic force of a mesh (k g or its law).
 ///
-/// Rigid motions (at mean mesh stiffness) are fixed by nu^T M q = 0, which needs no force because f does no work on
-/// them.
+/// Rigid motions (at mean mesh stiffness) are fixed by nu^T M q = 0, which needs no force because the constant part of
+/// f does no work on them. What changes in time may: the inertia of the rigid motion then balances it.
 class StaticSolver {
  public:
-  /// Throws InputError when the load does work on a rigid motion, which no support would resist.
+  /// Throws InputError when the constant load does work on a rigid motion, which no support would resist.
   explicit StaticSolver(const LumpedSystem& system);
 
   /// Displacements (m, one per DOF) in equilibrium at time t (s). The iteration starts from the contact states in
@@ -39,6 +39,7 @@ class StaticSolver {
   Eigen::MatrixXd base_, vectors_;  // K with rigid motions fixed; mesh vectors b at the time as columns
   Eigen::MatrixXd tangent_;
   Eigen::MatrixXd base_size_;  // |K|, for the rounding of the residual
+  Eigen::VectorXd load_;       // f at the time
   Eigen::VectorXd residual_, terms_, forces_, rest_, anchor_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };

@@ -90,10 +90,16 @@ bool FrequencyResponse::eigenvalues_agree() const {
   return true;
 }
 
+Eigen::MatrixXcd FrequencyResponse::dynamic_stiffness(double rate) const {
+  return (stiffness_ - rate * rate * mass_).cast<Complex>() + Complex(0, rate) * damping_.cast<Complex>();
+}
+
 Eigen::MatrixXcd FrequencyResponse::solve_directly(double rate) const {
-  const Eigen::MatrixXcd dynamic =
-      (stiffness_ - rate * rate * mass_).cast<Complex>() + Complex(0, rate) * damping_.cast<Complex>();
-  return dynamic.partialPivLu().solve(b_.cast<Complex>());
+  return dynamic_stiffness(rate).partialPivLu().solve(b_.cast<Complex>());
+}
+
+Eigen::VectorXcd FrequencyResponse::displacement(double rate, const Eigen::VectorXcd& force) const {
+  return dynamic_stiffness(rate).partialPivLu().solve(force);
 }
 
 Eigen::MatrixXd FrequencyResponse::mesh_transfer(double spacing, Eigen::Index lines) const {

@@ -29,6 +29,9 @@ class FrequencyResponse {
   /// D(0)^-1 f (m, one per DOF) for a real force f (N, one per DOF) that does no work on rigid motions.
   [[nodiscard]] Eigen::VectorXd static_displacement(const Eigen::VectorXd& force) const;
 
+  /// D(w)^-1 f (m, one per DOF) for the complex amplitude f (N, one per DOF) of a force with the rate w (rad/s), not 0.
+  [[nodiscard]] Eigen::VectorXcd displacement(double rate, const Eigen::VectorXcd& force) const;
+
   /// Mesh vectors b as columns.
   [[nodiscard]] const Eigen::MatrixXd& mesh_vectors() const { return b_; }
   [[nodiscard]] bool by_eigenvalues() const { return by_eigenvalues_; }
@@ -36,7 +39,8 @@ class FrequencyResponse {
   [[nodiscard]] double highest_rate() const { return highest_rate_; }
 
  private:
-  [[nodiscard]] Eigen::MatrixXcd solve_directly(double rate) const;  // D^-1 B
+  [[nodiscard]] Eigen::MatrixXcd dynamic_stiffness(double rate) const;  // D
+  [[nodiscard]] Eigen::MatrixXcd solve_directly(double rate) const;     // D^-1 B
   [[nodiscard]] Eigen::MatrixXd transfer_by_eigenvalues(double spacing, Eigen::Index lines) const;
   void find_eigenvalues(const Eigen::MatrixXd& shapes, Eigen::Index rigid_motions);
   [[nodiscard]] bool eigenvalues_agree() const;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <complex>
+#include <numbers>
 
 #include "core/errors.h"
 
@@ -14,6 +16,30 @@ using Complex = std::complex<double>;
 
 }  // namespace
 
+BalanceProblem balance_problem(const LumpedSystem& system, const FrequencyResponse& response,
+                               const Eigen::VectorXd& stiffness, double period, Eigen::Index samples) {
+  const double spacing = 2 * std::numbers::pi / period;
+  BalanceProblem problem{system, response, stiffness, spacing, response.mesh_transfer(spacing, samples / 2 - 1),
+                         {},     {}};
+  problem.static_transfer.resize(stiffness.size(), stiffness.size());
+  const auto& b = response.mesh_vectors();
+  for (Eigen::Index m = 0; m < stiffness.size(); ++m)
+    problem.static_transfer.col(m) = b.transpose() * response.static_displacement(b.col(m));
+  problem.static_approach = b.transpose() * response.static_displacement(system.load());
+  for (const auto& load : system.harmonic_loads()) {
+    const double rate = std::abs(load.rate), line = rate / spacing;
+    constexpr double whole = 1e-6;
+    if (std::abs(line - std::round(line)) > whole)
+      throw InputError(fmt::format("a load that repeats after {:g} s does not fit a period of {:g} s",
+                                   2 * std::numbers::pi / rate, period));
+    const Complex sine(0, std::copysign(1.0, load.rate));
+    problem.load_lines.push_back(
+        {std::lround(line),
+         response.displacement(rate, (load.cosine.cast<Complex>() - sine * load.sine.cast<Complex>()) / 2)});
+  }
+  return problem;
+}
+
 HarmonicBalance::HarmonicBalance(const BalanceProblem& problem, double period, Eigen::Index samples)
     : problem_(problem), meshes_(problem.system, period, samples), transform_(static_cast<int>(samples)) {
   require(samples % 4 == 0 && samples / 2 - 1 <= problem.transfer.cols() / (2 * problem.transfer.rows()),
@@ -22,6 +48,17 @@ HarmonicBalance::HarmonicBalance(const BalanceProblem& problem, double period, E
   lines_.resize(samples / 2 + 1, problem.mean_stiffness.size());
   approach_lines_ = lines_;
   line_.resize(lines_.rows());
+  loaded_ = problem.static_approach.transpose().replicate(samples, 1);
+  Eigen::VectorXd change(samples);
+  for (const auto& load : problem.load_lines) {
+    const Eigen::VectorXcd amplitude = problem.response.mesh_vectors().transpose() * load.displacement;
+    for (Eigen::Index m = 0; m < loaded_.cols(); ++m) {
+      line_.setZero();
+      line_[load.line] = amplitude[m];
+      transform_.inverse(line_.data(), change.data());
+      loaded_.col(m) += change;
+    }
+  }
 }
 
 void HarmonicBalance::forward(const Eigen::Ref<const Eigen::MatrixXd>& values, Eigen::MatrixXcd& lines) {
@@ -70,7 +107,7 @@ Eigen::MatrixXd HarmonicBalance::linear_solution(const Eigen::MatrixXd& start, c
   forward(rest, lines_);
   Eigen::MatrixXd approach(rest.rows(), rest.cols());
   respond(approach);
-  return problem_.static_approach.transpose().replicate(approach.rows(), 1) - approach;
+  return loaded_ - approach;
 }
 
 void HarmonicBalance::residual(const Eigen::Ref<const Eigen::MatrixXd>& approach, Eigen::Ref<Eigen::MatrixXd> result) {
@@ -93,8 +130,7 @@ void HarmonicBalance::residual(const Eigen::Ref<const Eigen::MatrixXd>& approach
   }
   approach_lines_.topRows(last) = lines_.topRows(last) / static_cast<double>(samples());  // for the motion
   respond(result);
-  for (Eigen::Index m = 0; m < approach.cols(); ++m)
-    result.col(m).array() += approach.col(m).array() - problem_.static_approach[m];
+  for (Eigen::Index m = 0; m < approach.cols(); ++m) result.col(m) += approach.col(m) - loaded_.col(m);
 }
 
 void HarmonicBalance::apply_derivative(const Eigen::Ref<const Eigen::MatrixXd>& change,
@@ -128,8 +164,9 @@ Eigen::MatrixXd HarmonicBalance::refined(const Eigen::MatrixXd& values, Eigen::I
 void HarmonicBalance::motion(Eigen::MatrixXd& displacement, Eigen::MatrixXd& velocity) {
   const Eigen::Index last = samples() / 2;
   const auto& response = problem_.response;
-  const Eigen::MatrixXcd amplitudes =
+  Eigen::MatrixXcd amplitudes =
       response.displacements(problem_.spacing, -approach_lines_.middleRows(1, last - 1).transpose());
+  for (const auto& load : problem_.load_lines) amplitudes.col(load.line - 1) += load.displacement;
   const Eigen::VectorXd mean = response.static_displacement(
       problem_.system.load() - response.mesh_vectors() * approach_lines_.row(0).real().transpose());
   displacement.resize(amplitudes.rows(), samples());

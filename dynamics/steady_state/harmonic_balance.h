@@ -16,8 +16,19 @@ struct BalanceProblem {
   double spacing = 0;               ///< rad/s, between the lines
   Eigen::MatrixXd transfer;         ///< of the meshes, at all lines of the finest sampling
   Eigen::MatrixXd static_transfer;  ///< at w = 0
-  Eigen::VectorXd static_approach;  ///< of the load, at w = 0
+  Eigen::VectorXd static_approach;  ///< of the constant load, at w = 0
+  /// A load that changes in time, with what it does to the system with mean stiffness: amplitude x exp(i w t) + its
+  /// conjugate.
+  struct LoadLine {
+    Eigen::Index line = 0;          ///< w = line x spacing
+    Eigen::VectorXcd displacement;  ///< m, one per DOF
+  };
+  std::vector<LoadLine> load_lines{};
 };
+/// For a motion that repeats after `period` (s), with up to `samples`. System and response are referred to; the latter
+/// has this stiffness (N/m, one per mesh). Throws InputError for a load that does not repeat with the period.
+[[nodiscard]] BalanceProblem balance_problem(const LumpedSystem& system, const FrequencyResponse& response,
+                                             const Eigen::VectorXd& stiffness, double period, Eigen::Index samples);
 
 /// Residual and derivative of the harmonic balance at one sampling. Matrices: samples x meshes.
 class HarmonicBalance {
@@ -52,6 +63,7 @@ class HarmonicBalance {
   RealTransform transform_;
   Eigen::MatrixXcd lines_, approach_lines_;  // spectra, up to the Nyquist line, one column per mesh
   Eigen::VectorXcd line_;
+  Eigen::MatrixXd loaded_;  // approaches under the loads, with mean stiffness
   Eigen::MatrixXd rate_, force_;
 };
 

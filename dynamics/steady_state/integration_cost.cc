@@ -86,6 +86,20 @@ bool too_few_samples(int samples, int needed) {
   return samples < samples_for_contacts || (needed > 2 * samples && needed < too_fast * samples);
 }
 
+/// Mesh cycles of all starts from which other motions are looked for, with a looser tolerance than the rest.
+double searched_cycles(const LumpedSystem& system, double mesh_frequency, int period,
+                       const SimulationOptions& options) {
+  if (options.other_motions.starts == 0 || period > longest_searched_period) return 0;
+  const auto meshes = mean_stiffnesses(system);
+  const SteadyProblem problem{.mesh_frequency = mesh_frequency,
+                              .period_in_cycles = period,
+                              .force_scale = 1,
+                              .stiffness = meshes.size() > 0 ? meshes.maxCoeff() : 1};
+  if (reach_of_backlash(system, problem) < within_reach) return 0;
+  constexpr double periods = 60;  // until twelve periods repeat (measured on spur pairs and stages: 24 to 100)
+  return (options.other_motions.starts + 1) * periods * period;
+}
+
 }  // namespace
 
 double integration_seconds(const LumpedSystem& system, double mesh_frequency, double cycles,
@@ -140,6 +154,7 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   }
   if (!length.whole) return {(2 + looser) * window, unsteady_comparison, 0};
   SteadyCourse result;
+  result.searched_cycles = searched_cycles(system, mesh_frequency, period, options);
   const int most = std::max(options.samples_per_cycle, most_samples_per_cycle(period));
   // Doubled until they follow tooth contacts and the highest natural frequency.
   int samples = std::min(options.samples_per_cycle, most);

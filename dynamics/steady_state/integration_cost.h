@@ -23,6 +23,7 @@ enum class StiffnessCourse {
 /// What steady_response will do.
 struct SteadyCourse {
   double cycles = 0;           ///< mesh cycles integrated in time, those that estimate the integrator's error included
+  double searched_cycles = 0;  ///< the same for other motions, where backlash is within reach
   double compared_cycles = 0;  ///< the same for each comparison with changed tables (comparison_options)
   double balance_s = 0;        ///< s, of each harmonic balance, which is the comparison where no cycles are
 };

@@ -1,127 +1,46 @@
 #include "dynamics/steady_state/periodic_response.h"
 
 #include <fmt/format.h>
-#include <kinsol/kinsol.h>
-#include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_spgmr.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sundials/sundials_context.hpp>
 
 #include "core/errors.h"
 #include "dynamics/statics/static_solver.h"
 #include "dynamics/steady_state/harmonic_balance.h"
+#include "dynamics/steady_state/newton_krylov.h"
 
 namespace annulus::dynamics {
 
 namespace {
 
-/// Data of the callbacks of KINSOL.
-struct BalanceIteration {
-  HarmonicBalance& balance;
-  Eigen::MatrixXd at;  ///< where the residual was evaluated last
-  [[nodiscard]] Eigen::Map<Eigen::MatrixXd> matrix(N_Vector v) const {
-    return {N_VGetArrayPointer(v), at.rows(), at.cols()};
-  }
-};
-
-extern "C" {
-
-static int annulus_balance(N_Vector u, N_Vector result, void* data) {
-  auto& p = *static_cast<BalanceIteration*>(data);
-  p.at = p.matrix(u);
-  p.balance.residual(p.at, p.matrix(result));
-  return p.matrix(result).allFinite() ? 0 : 1;
+/// Solves the harmonic balance from these approaches, with residuals relative to `scale` (m). Adds to the iterations of
+/// the response and sets residual, converged and trouble.
+Eigen::MatrixXd solve_balance(HarmonicBalance& balance, const Eigen::MatrixXd& start, double scale,
+                              const PeriodicOptions& options, PeriodicResponse& response) {
+  const Eigen::Index rows = start.rows(), columns = start.cols();
+  Eigen::MatrixXd result(rows, columns);
+  const Equations equations{[&](const Eigen::VectorXd& u, Eigen::VectorXd& residual) {
+                              balance.residual(u.reshaped(rows, columns), result);
+                              residual = result.reshaped();
+                            },
+                            [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) {
+                              balance.apply_derivative(v.reshaped(rows, columns), result);
+                              product = result.reshaped();
+                            }};
+  const auto solved = solve_newton_krylov(
+      equations, start.reshaped(),
+      {.tolerance = options.tolerance, .weight = 1 / scale, .max_iterations = options.max_iterations});
+  response.newton_iterations += solved.newton_iterations;
+  response.linear_iterations += solved.linear_iterations;
+  response.residual = solved.residual;
+  response.converged = solved.converged;
+  if (!response.converged && response.trouble.empty())
+    response.trouble = fmt::format("residual {:.1e} after {} iterations with {} samples: {}", response.residual,
+                                   solved.newton_iterations, rows, solved.trouble);
+  return solved.u.reshaped(rows, columns);
 }
-
-static int annulus_balance_derivative(N_Vector v, N_Vector result, N_Vector u, booleantype* new_u, void* data) {
-  auto& p = *static_cast<BalanceIteration*>(data);
-  // The line search may have evaluated another point last.
-  if (*new_u && p.at != p.matrix(u)) annulus_balance(u, result, data);
-  *new_u = SUNFALSE;
-  p.balance.apply_derivative(p.matrix(v), p.matrix(result));
-  return 0;
-}
-
-/// Most of the time of GMRES at this size; the loop of SUNDIALS does one product at a time.
-static realtype annulus_balance_product(N_Vector a, N_Vector b) {
-  using Values = Eigen::Map<const Eigen::VectorXd>;
-  return Values(N_VGetArrayPointer(a), NV_LENGTH_S(a)).dot(Values(N_VGetArrayPointer(b), NV_LENGTH_S(b)));
-}
-
-/// KINSOL prints its messages; here they go to `trouble`.
-static void annulus_balance_complaint(int, const char*, const char*, char* message, void* data) {
-  *static_cast<std::string*>(data) = message;
-}
-
-}  // extern "C"
-
-/// One Newton-Krylov solution; owns what KINSOL allocates.
-class BalanceSolver {
- public:
-  BalanceSolver(HarmonicBalance& balance, const Eigen::MatrixXd& start, double scale, const PeriodicOptions& options)
-      : iteration_{balance, start}, scale_(scale), options_(options) {
-    u_ = N_VNew_Serial(start.size(), context_);
-    u_->ops->nvdotprod = annulus_balance_product;  // clones inherit it
-    weights_ = N_VClone(u_);
-    N_VConst(1 / scale, weights_);
-    iteration_.matrix(u_) = start;
-    constexpr int directions = 50;
-    solver_ = SUNLinSol_SPGMR(u_, SUN_PREC_NONE, directions, context_);
-    memory_ = KINCreate(context_);
-    if (!memory_) throw SolverError(fmt::format("KINSOL could not be set up for {} unknowns", start.size()));
-    KINSetErrHandlerFn(memory_, annulus_balance_complaint, &complaint_);
-    KINInit(memory_, annulus_balance, u_);
-    KINSetUserData(memory_, &iteration_);
-    KINSetFuncNormTol(memory_, options.tolerance);
-    KINSetScaledStepTol(memory_, 1e-3 * options.tolerance);
-    KINSetNumMaxIters(memory_, options.max_iterations);
-    // The linear problem (no contact lost) then takes two or three Newton iterations, of few directions each.
-    KINSetEtaForm(memory_, KIN_ETACONSTANT);
-    KINSetEtaConstValue(memory_, 1e-2);
-    KINSetLinearSolver(memory_, solver_, nullptr);
-    KINSetJacTimesVecFn(memory_, annulus_balance_derivative);
-  }
-  ~BalanceSolver() {
-    KINFree(&memory_);
-    SUNLinSolFree(solver_);
-    N_VDestroy(weights_);
-    N_VDestroy(u_);
-  }
-  BalanceSolver(const BalanceSolver&) = delete;
-  BalanceSolver& operator=(const BalanceSolver&) = delete;
-
-  /// Returns the approaches; adds to the iterations and sets residual, converged and trouble.
-  Eigen::MatrixXd solve(PeriodicResponse& response) {
-    const int flag = options_.max_iterations > 0 ? KINSol(memory_, u_, KIN_LINESEARCH, weights_, weights_) : 0;
-    long newton = 0, linear = 0;
-    KINGetNumNonlinSolvIters(memory_, &newton);
-    KINGetNumLinIters(memory_, &linear);
-    response.newton_iterations += static_cast<int>(newton);
-    response.linear_iterations += static_cast<int>(linear);
-    // The forces and derivatives of the solution itself: KINSOL may have evaluated another point last.
-    Eigen::MatrixXd approach = iteration_.matrix(u_), residual(approach.rows(), approach.cols());
-    iteration_.balance.residual(approach, residual);
-    response.residual = residual.cwiseAbs().maxCoeff() / scale_;
-    response.converged = options_.max_iterations > 0 && response.residual <= options_.tolerance;
-    if (!response.converged && response.trouble.empty())
-      response.trouble = fmt::format("residual {:.1e} after {} iterations with {} samples: {}", response.residual,
-                                     newton, approach.rows(), flag < 0 ? complaint_ : "the steps became too small");
-    return approach;
-  }
-
- private:
-  sundials::Context context_;
-  std::string complaint_;
-  BalanceIteration iteration_;
-  double scale_;
-  const PeriodicOptions& options_;
-  N_Vector u_ = nullptr, weights_ = nullptr;
-  SUNLinearSolver solver_ = nullptr;
-  void* memory_ = nullptr;
-};
 
 /// Deflections under load at time 0; a mesh without contact is at the edge of its backlash.
 struct Reference {
@@ -244,12 +163,14 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
 
   const FrequencyResponse linear(system, mean);
   const double spacing = 2 * std::numbers::pi / period;
-  BalanceProblem problem{system, linear, mean, spacing, linear.mesh_transfer(spacing, samples / 2 - 1), {}, {}};
-  problem.static_transfer.resize(mean.size(), mean.size());
-  const auto& b = linear.mesh_vectors();
-  for (Eigen::Index m = 0; m < mean.size(); ++m)
-    problem.static_transfer.col(m) = b.transpose() * linear.static_displacement(b.col(m));
-  problem.static_approach = b.transpose() * linear.static_displacement(system.load());
+  auto problem = balance_problem(system, linear, mean, period, samples);
+  for (const auto& load : problem.load_lines)
+    if (load.line >= samples / coarsening / 2) {
+      PeriodicResponse refused;
+      refused.trouble = fmt::format("a load that repeats {} times in a period of {:g} s needs more than {} samples",
+                                    load.line, period, samples / coarsening);
+      return refused;
+    }
 
   PeriodicResponse response;
   approach.resize(0, 0);
@@ -268,7 +189,7 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
     if (4 * level <= samples) level_options.tolerance = std::max(options.tolerance, rough_tolerance);
     // Where a coarse sampling fails, a finer one would fail or cost too much: the last iterate is returned as it is.
     if (failed) level_options.max_iterations = 0;
-    approach = BalanceSolver(balance, approach, reference.scale, level_options).solve(response);
+    approach = solve_balance(balance, approach, reference.scale, level_options, response);
     failed = failed || response.residual > std::max(level_options.tolerance, level < samples ? out_of_reach : 0.0);
     if (2 * level >= samples) fill(response, balance, approach);
     if (level == samples) balance.motion(response.displacement, response.velocity);
@@ -296,7 +217,7 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
     HarmonicBalance balance(problem, period, level);
     approach = HarmonicBalance::refined(approach, 2);
     auto finer = response;
-    approach = BalanceSolver(balance, approach, reference.scale, options).solve(finer);
+    approach = solve_balance(balance, approach, reference.scale, options, finer);
     if (!finer.converged) break;
     fill(finer, balance, approach);
     balance.motion(finer.displacement, finer.velocity);

@@ -241,6 +241,7 @@ std::string why_not_piecewise(const LumpedSystem& system, double period) {
   if (!system.couplings().empty()) return "meshes act on each other through the ring";
   if (!system.bearings().empty()) return "bearings have clearance";
   if (!system.faces().empty()) return "meshes are spread over their faces";
+  if (!system.harmonic_loads().empty()) return "loads change in time";
   for (const auto& mesh : system.meshes()) {
     const bool wave = std::holds_alternative<RectangularStiffness>(mesh.excitation);
     if (!wave && !std::holds_alternative<ConstantStiffness>(mesh.excitation))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -40,6 +41,24 @@ void check_steady(const SteadyProblem& problem, const SimulationOptions& options
   if (options.min_window_cycles < 1 || options.max_window_cycles < 1)
     throw InputError(fmt::format("the evaluated window must be at least one mesh cycle long, not {} to {}",
                                  options.min_window_cycles, options.max_window_cycles));
+}
+
+/// The integrator of the options with an absolute tolerance, tightened; `choice`: where it is chosen here.
+IntegratorOptions resolved_integrator(const LumpedSystem& system, const SteadyProblem& problem,
+                                      const IntegratorOptions& given, double tightening,
+                                      std::optional<IntegratorChoice>& choice) {
+  IntegratorOptions integrator = given;
+  integrator.relative_tolerance *= tightening;
+  if (integrator.absolute_tolerance) *integrator.absolute_tolerance *= tightening;
+  if (integrator.method == Integrator::automatic) {
+    choice = choose_integrator(system, integrator.relative_tolerance);
+    integrator.method = choice->method;
+  }
+  if (integrator.method == Integrator::runge_kutta_4)
+    check_fixed_step(system, problem.mesh_frequency, integrator.fixed_step);
+  if (!integrator.absolute_tolerance)
+    integrator.absolute_tolerance = 0.1 * integrator.relative_tolerance * problem.force_scale / problem.stiffness;
+  return integrator;
 }
 
 /// The way to the steady state as a state machine. A step does its work and names the next one:
@@ -186,11 +205,11 @@ class SteadyStateFinder {
 
   /// From the periodic solution, else from the start of the problem, else from quasi-static equilibrium.
   WindowIntegration& start_integration() {
-    integrator_ = integrator_options();
+    integrator_ = resolved_integrator(system_, problem_, options_.integrator, tightening_, response_.integrator);
     ResponseRun run(system_, problem_.mesh_frequency, options_.samples_per_cycle, integrator_);
     run.sample_forces_closer(closer_samples());
-    if (problem_.start) {
-      const auto &q = problem_.start->q, &v = problem_.start->v;
+    if (options_.start) {
+      const auto &q = options_.start->q, &v = options_.start->v;
       if (q.size() != system_.dofs() || v.size() != system_.dofs())
         throw InputError(
             fmt::format("a start of the time integration needs {} displacements and velocities, not {} and {}",
@@ -216,21 +235,6 @@ class SteadyStateFinder {
     return closer;
   }
 
-  IntegratorOptions integrator_options() {
-    IntegratorOptions integrator = options_.integrator;
-    integrator.relative_tolerance *= tightening_;
-    if (integrator.absolute_tolerance) *integrator.absolute_tolerance *= tightening_;
-    if (integrator.method == Integrator::automatic) {
-      response_.integrator = choose_integrator(system_, integrator.relative_tolerance);
-      integrator.method = response_.integrator->method;
-    }
-    if (integrator.method == Integrator::runge_kutta_4)
-      check_fixed_step(system_, problem_.mesh_frequency, integrator.fixed_step);
-    if (!integrator.absolute_tolerance)
-      integrator.absolute_tolerance = 0.1 * integrator.relative_tolerance * problem_.force_scale / problem_.stiffness;
-    return integrator;
-  }
-
   const LumpedSystem& system_;
   const SteadyProblem& problem_;
   const SimulationOptions& options_;
@@ -242,6 +246,52 @@ class SteadyStateFinder {
 };
 
 }  // namespace
+
+void look_for_other_motions(const LumpedSystem& system, const SteadyProblem& problem, const SimulationOptions& options,
+                            SteadyResponse& response) {
+  if (options.other_motions.starts == 0 || options.mesh_cycles || reach_of_backlash(system, problem) < within_reach)
+    return;
+  if (problem.period_in_cycles > longest_searched_period) {
+    response.motions.not_tried = fmt::format("the excitation repeats after {} mesh cycles; up to {} are searched",
+                                             problem.period_in_cycles, longest_searched_period);
+    return;
+  }
+  std::optional<IntegratorChoice> choice;
+  auto integrator = resolved_integrator(system, problem, options.integrator, 1, choice);
+  constexpr double loose = 1e-5;  // motions are compared to 2 %
+  if (const double factor = loose / integrator.relative_tolerance; factor > 1) {
+    integrator.relative_tolerance = loose;
+    *integrator.absolute_tolerance *= factor;
+  }
+  auto [found, states] = stable_motions(system, problem, response.begin, integrator, options.other_motions);
+  const auto taken =
+      std::find_if(found.list.begin(), found.list.end(), [](const FoundMotion& motion) { return motion.taken; });
+  constexpr double more = 1.02;
+  if (taken != found.list.begin() && found.list.front().largest_force > more * taken->largest_force) {
+    auto other = problem;
+    other.period_in_cycles *= std::max(1, found.list.front().period);
+    const auto in_time = followed_from(options, &states.front());
+    log::info(fmt::format("{} motions found: time integration on the one with the largest force, {:.3g} N",
+                          found.list.size(), found.list.front().largest_force));
+    auto largest = SteadyStateFinder(system, other, in_time).run();
+    // Close to a fold the integration may leave it.
+    constexpr double part = 0.9;
+    if (largest.best.force.cwiseAbs().maxCoeff() > part * found.list.front().largest_force) {
+      taken->taken = false;
+      found.list.front().taken = true;
+      response = std::move(largest);
+    }
+  }
+  response.motions = std::move(found);
+}
+
+SimulationOptions followed_from(SimulationOptions options, const SystemState* start) {
+  options.steady_state = SteadyState::time_integration;
+  options.other_motions.starts = 0;
+  options.start.reset();
+  if (start) options.start = *start;
+  return options;
+}
 
 WindowLength window_length(int period, const SimulationOptions& options) {
   const int limit = std::min(options.max_window_cycles, options.mesh_cycles.value_or(options.max_window_cycles));
@@ -271,7 +321,9 @@ bool may_miss(const LumpedSystem& system, const PeriodicSolution& found, double 
 SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& problem,
                                const SimulationOptions& options) {
   check_steady(problem, options);
-  return SteadyStateFinder(system, problem, options).run();
+  auto response = SteadyStateFinder(system, problem, options).run();
+  look_for_other_motions(system, problem, options, response);
+  return response;
 }
 
 }  // namespace annulus::dynamics

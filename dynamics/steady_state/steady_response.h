@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/not_known.h"
+#include "dynamics/steady_state/other_motions.h"
 #include "dynamics/steady_state/periodic_response.h"
 #include "dynamics/steady_state/response_run.h"
 #include "dynamics/time_integration/integrate.h"
@@ -55,8 +56,8 @@ struct SimulationOptions {
   bool keep_series = true;   ///< false: results without time series
   PeriodicOptions periodic;  ///< `samples_per_cycle` is overwritten by that of this struct
   IntegratorOptions integrator;
-  /// Start of the time integration at time 0 (see SteadyProblem::start). From a harmonic balance the integration starts
-  /// with the state of its solution.
+  /// Start of the time integration at time 0; absent: quasi-static equilibrium. From a harmonic balance the integration
+  /// starts with the state of its solution.
   std::optional<SystemState> start{};
   /// Total mesh cycles from the start, by time integration alone. Absent: until the response repeats, then one error
   /// period.
@@ -79,6 +80,7 @@ struct SimulationOptions {
   int max_window_cycles = 2000;
   /// Integrates the last window again with a tolerance ten times looser, which estimates the error of the integrator.
   bool estimate_error = true;
+  MotionSearch other_motions;  ///< looked for where reach_of_backlash() is `within_reach` or more
 
   /// Sets the tolerance of the integrator. Windows of a loose integration repeat to some of its step errors only, so
   /// `steady_tolerance` is raised to at least ten times this value.
@@ -92,8 +94,12 @@ struct SimulationOptions {
     max_window_cycles = evaluated;
     estimate_error = false;
     keep_series = false;
+    other_motions.starts = 0;
   }
 };
+
+/// Time integration alone, from a state at time 0 (null: from equilibrium), and no look for other motions.
+[[nodiscard]] SimulationOptions followed_from(SimulationOptions options, const SystemState* start);
 
 struct WindowLength {
   int cycles = 0;
@@ -123,11 +129,16 @@ struct EnergyBalance {
 
 /// Data of the steady state beside the system itself.
 struct SteadyProblem {
-  double mesh_frequency = 0;           ///< Hz, > 0: of the cycles in which windows, samples and the period are counted
-  int period_in_cycles = 1;            ///< mesh cycles after which excitation, errors and mesh vectors repeat
-  double force_scale = 0;              ///< N, > 0: the mean mesh force, or a substitute without a torque
-  double stiffness = 0;                ///< N/m, > 0: force_scale / stiffness is the deflection that integrators resolve
-  std::optional<SystemState> start{};  ///< start of the time integration at time 0; absent: quasi-static equilibrium
+  double mesh_frequency = 0;  ///< Hz, > 0: of the cycles in which windows, samples and the period are counted
+  int period_in_cycles = 1;   ///< mesh cycles after which excitation, errors and mesh vectors repeat
+  double force_scale = 0;     ///< N, > 0: the mean mesh force, or a substitute without a torque
+  double stiffness = 0;       ///< N/m, > 0: force_scale / stiffness is the deflection that integrators resolve
+};
+
+/// A system with the data of its steady state.
+struct LumpedCase {
+  LumpedSystem system;
+  SteadyProblem problem;
 };
 
 /// How the steady state was found, and how well it is known.
@@ -144,6 +155,7 @@ struct SteadyOutcome {
   std::optional<IntegratorChoice> integrator;  ///< present when chosen automatically
   EnergyBalance energy;
   IntegratorStatistics statistics;
+  FoundMotions motions;  ///< where several were found this is the one with the largest force
   /// States at the ends of the evaluated window where it was integrated; otherwise both the state at its first sample.
   SystemState begin, end;
 };
@@ -160,7 +172,8 @@ struct SteadyResponse : SteadyOutcome {
 
 /// Periodic steady state of any system. A periodic solution (see SteadyState) is confirmed by time integration over one
 /// window. Time integration goes on alone where the two disagree, where no solution is found, or where the period is
-/// longer than `max_window_cycles`.
+/// longer than `max_window_cycles`. Where `other_motions` finds a motion with larger forces, time integration from it
+/// gives the response.
 ///
 /// No periodic solution exists where mesh vectors move in time; with jumps of the stiffness, loss of contact and
 /// parametric resonance prevent it too. The torque may have either sign or be zero. `keep_series` has no effect: all
@@ -170,6 +183,11 @@ struct SteadyResponse : SteadyOutcome {
 /// integrator fails.
 [[nodiscard]] SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& problem,
                                              const SimulationOptions& options = {});
+
+/// What steady_response does at its end, for a response that was found without: looks for other motions of the system,
+/// and replaces the response by the one with the largest force.
+void look_for_other_motions(const LumpedSystem& system, const SteadyProblem& problem, const SimulationOptions& options,
+                            SteadyResponse& response);
 
 /// Whether a harmonic balance that stands alone may miss more of a force than `beyond` (relative to the force scale):
 /// other samplings change it by more, or the stiffness jumps, and forces peak at jumps, between the samples.

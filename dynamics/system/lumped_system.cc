@@ -65,6 +65,13 @@ int LumpedSystem::find(const std::string& name) const {
   return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
 }
 
+Eigen::VectorXd LumpedSystem::load_at(double t) const {
+  Eigen::VectorXd load = load_;
+  for (const auto& part : harmonic_loads_)
+    load += std::cos(part.rate * t) * part.cosine + std::sin(part.rate * t) * part.sine;
+  return load;
+}
+
 bool LumpedSystem::is_whole_mesh(int mesh) const {
   return std::none_of(bearings_.begin(), bearings_.end(),
                       [mesh](const auto& bearing) { return bearing.first == mesh || bearing.second == mesh; }) &&
@@ -234,7 +241,7 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
   // dE/dt = v.f - v.(C v) - v.(K_skew q) - sum c delta'^2 + sum (b'.q - e') F + sum dU/dt at constant g
   //         - sum F.(D' F)/2
   Power p;
-  for (int i = 0; i < n; ++i) p.supplied += load_[i] * v[i];
+  p.supplied = load_at(t).dot(Eigen::Map<const Eigen::VectorXd>(v, n));
   for (const auto& term : compiled_->power) {
     p.dissipated += v[term.i] * term.damping * v[term.j];
     p.supplied -= v[term.i] * term.circulatory * q[term.j];

@@ -111,7 +111,13 @@ struct SpringElement {
   double damping = 0;    ///< N s/m
 };
 
-/// M q'' + (C + G) q' + (K + K_Omega) q + sum_m b_m F_m = f, immutable. Built by LumpedSystemBuilder.
+/// Loads that change in time with one rate: cosine x cos(rate t) + sine x sin(rate t).
+struct HarmonicLoad {
+  double rate = 0;               ///< rad/s, not 0
+  Eigen::VectorXd cosine, sine;  ///< N, one per DOF
+};
+
+/// M q'' + (C + G) q' + (K + K_Omega) q + sum_m b_m F_m = f(t), immutable. Built by LumpedSystemBuilder.
 class LumpedSystem {
  public:
   /// Contact state of a mesh, held between the events that the integrator finds.
@@ -157,12 +163,14 @@ class LumpedSystem {
   [[nodiscard]] const Eigen::MatrixXd& rotating_stiffness() const { return rotating_stiffness_; }
   [[nodiscard]] const Eigen::MatrixXd& damping() const { return damping_; }        ///< C, symmetric, without meshes
   [[nodiscard]] const Eigen::MatrixXd& gyroscopic() const { return gyroscopic_; }  ///< G, skew
-  [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }              ///< f, N
-  [[nodiscard]] Eigen::VectorXd mesh_vector(int mesh, double t = 0) const;         ///< b at a time, dense
-  [[nodiscard]] Eigen::VectorXd mesh_vector_rate(int mesh, double t) const;        ///< db/dt, 1/s
-  [[nodiscard]] Eigen::MatrixXd mesh_vectors(double t = 0) const;                  ///< all b, DOFs x meshes
-  [[nodiscard]] Eigen::MatrixXd damping_with_meshes() const;                       ///< C + sum c b b^T, b at time 0
-  [[nodiscard]] bool has_moving_vectors() const;                                   ///< does any b change in time?
+  [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }              ///< N, the constant part of f
+  [[nodiscard]] const std::vector<HarmonicLoad>& harmonic_loads() const { return harmonic_loads_; }  ///< each rate once
+  [[nodiscard]] Eigen::VectorXd load_at(double t) const;                                             ///< f, N
+  [[nodiscard]] Eigen::VectorXd mesh_vector(int mesh, double t = 0) const;   ///< b at a time, dense
+  [[nodiscard]] Eigen::VectorXd mesh_vector_rate(int mesh, double t) const;  ///< db/dt, 1/s
+  [[nodiscard]] Eigen::MatrixXd mesh_vectors(double t = 0) const;            ///< all b, DOFs x meshes
+  [[nodiscard]] Eigen::MatrixXd damping_with_meshes() const;                 ///< C + sum c b b^T, b at time 0
+  [[nodiscard]] bool has_moving_vectors() const;                             ///< does any b change in time?
   [[nodiscard]] const std::vector<MeshCoupling>& couplings() const { return couplings_; }
   [[nodiscard]] const std::vector<BearingElement>& bearings() const { return bearings_; }
   [[nodiscard]] const std::vector<FaceElement>& faces() const { return faces_; }
@@ -217,6 +225,7 @@ class LumpedSystem {
   std::vector<SpringElement> springs_;
   Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
   Eigen::VectorXd load_;
+  std::vector<HarmonicLoad> harmonic_loads_;
   std::shared_ptr<const Compiled> compiled_;
 };
 
@@ -244,6 +253,8 @@ class LumpedSystemBuilder {
   /// Adds the Omega part of a damper (N s/m) to the housing in the turning frame: c (x' - Omega y), c (y' + Omega x).
   void add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping, double speed);
   void add_load(const LinearForm& coordinate, double force);
+  /// Adds cosine x cos(rate t) + sine x sin(rate t), N.
+  void add_harmonic_load(const LinearForm& coordinate, double rate, double cosine, double sine);
   int add_mesh(MeshElement mesh);  ///< its number
   /// Adds inertia (kg) between two coordinates: M += value (a b^T + b a^T).
   void add_mass_coupling(const LinearForm& a, const LinearForm& b, double value);
@@ -273,6 +284,11 @@ class LumpedSystemBuilder {
   };
   std::vector<Term> mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
   std::vector<std::pair<LinearForm, double>> load_;
+  struct HarmonicTerm {
+    LinearForm coordinate;
+    double rate, cosine, sine;
+  };
+  std::vector<HarmonicTerm> harmonic_load_;
 };
 
 }  // namespace annulus::dynamics

@@ -82,6 +82,14 @@ void LumpedSystemBuilder::add_load(const LinearForm& coordinate, double force) {
   load_.emplace_back(coordinate, force);
 }
 
+void LumpedSystemBuilder::add_harmonic_load(const LinearForm& coordinate, double rate, double cosine, double sine) {
+  if (cosine == 0 && sine == 0) return;
+  if (rate == 0)
+    add_load(coordinate, cosine);
+  else
+    harmonic_load_.push_back({coordinate, rate, cosine, sine});
+}
+
 int LumpedSystemBuilder::add_mesh(MeshElement mesh) {
   meshes_.push_back(std::move(mesh));
   return static_cast<int>(meshes_.size()) - 1;
@@ -135,6 +143,16 @@ void LumpedSystemBuilder::assemble_matrices(LumpedSystem& system) const {
   system.load_ = Eigen::VectorXd::Zero(n);
   for (const auto& [form, force] : load_)
     for (const auto& [i, a] : form) system.load_[i] += a * force;
+  for (const auto& term : harmonic_load_) {
+    auto& all = system.harmonic_loads_;
+    auto of_rate = std::find_if(all.begin(), all.end(), [&](const auto& load) { return load.rate == term.rate; });
+    if (of_rate == all.end())
+      of_rate = all.insert(all.end(), {term.rate, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)});
+    for (const auto& [i, a] : term.coordinate) {
+      of_rate->cosine[i] += a * term.cosine;
+      of_rate->sine[i] += a * term.sine;
+    }
+  }
 }
 
 void LumpedSystemBuilder::check_mass(const LumpedSystem& system) {

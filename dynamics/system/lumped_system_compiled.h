@@ -81,7 +81,12 @@ using CouplingVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor,
 struct LumpedSystem::Compiled {
   std::vector<int> row_start, column;      ///< common pattern of ...
   std::vector<double> stiffness, damping;  ///< ... M^-1 (K + K_Omega) and M^-1 (C + G)
-  Eigen::VectorXd acceleration;            ///< M^-1 f
+  Eigen::VectorXd acceleration;            ///< M^-1 f, of the constant part
+  struct HarmonicAcceleration {
+    std::size_t slot = 0;
+    Eigen::VectorXd sine, cosine;
+  };
+  std::vector<HarmonicAcceleration> harmonic;
   /// The acceleration without M^-1 f as one sparse matrix: row i is [pair_start[i], pair_start[i + 1]). A column is a
   /// pair of numbers in Workspace::pairs: first all (q_j, v_j), then two mesh forces at a time, then two forces on
   /// `moving_dofs` at a time.

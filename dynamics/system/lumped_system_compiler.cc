@@ -71,6 +71,8 @@ std::shared_ptr<const LumpedSystem::Compiled> LumpedSystemCompiler::compile() {
 void LumpedSystemCompiler::compile_matrices() {
   auto& c = *compiled_;
   c.acceleration = mass_.solve(system_.load());
+  for (const auto& load : system_.harmonic_loads())
+    c.harmonic.push_back({slot_of(c.rates, load.rate), mass_.solve(load.sine), mass_.solve(load.cosine)});
   const Eigen::MatrixXd stiffness = mass_.solve(system_.stiffness() + system_.rotating_stiffness());
   const Eigen::MatrixXd damping = mass_.solve(system_.damping() + system_.gyroscopic());
   // Entry by entry: a soft support beside a stiff one, or a light body beside a heavy one, is not rounding.

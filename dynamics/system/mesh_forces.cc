@@ -218,6 +218,8 @@ void LumpedSystem::rhs(double t, const double* y, double* dy, Workspace& w) cons
   }
   for (int i = 0; i < n; ++i) {
     TwoDoubles a{c.acceleration[i], 0.0};
+    for (const auto& load : c.harmonic)
+      a += TwoDoubles{load.sine[i] * w.sine[load.slot], load.cosine[i] * w.cosine[load.slot]};
     for (int j = c.pair_start[i]; j < c.pair_start[i + 1]; ++j)
       a -= two_doubles_at(&c.pair_factor[2 * j]) * two_doubles_at(pairs + 2 * c.pair_column[j]);
     dy[i] = y[n + i];

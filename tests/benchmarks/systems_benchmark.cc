@@ -61,7 +61,7 @@ void pair_grid(int points) {
       const auto response = evaluate_pair(pair, direct);
       const double once = watch.cpu();
       time += once;
-      parted += response.contact_loss > 0;
+      parted += response.contact_loss.value > 0;
       if (i % (points * points / 8 + 1) != 0) continue;
       const Stopwatch integration;
       (void)evaluate_pair(pair, integrated);

@@ -97,6 +97,44 @@ BOOST_AUTO_TEST_CASE(harmonic_error_in_closed_form) {
   BOOST_TEST(response.coarse_difference <= 1e-12 * load);
 }
 
+BOOST_AUTO_TEST_CASE(harmonic_load_in_closed_form) {
+  using namespace std::complex_literals;
+  annulus::test::Verification record("Harmonic load on a linear mesh", "closed form: (k - w^2 m + i w c) x = F");
+  const MeshedMass mass;
+  const double w = 2 * std::numbers::pi * frequency, cosine = 7, sine = -4;
+  for (const double rate : {w, -w, 3 * w}) {
+    LumpedSystemBuilder builder;
+    MeshElement m = mass.mesh;
+    m.b = builder.add_dof("x");
+    builder.add_mass(m.b, 2);
+    builder.add_load(m.b, load);
+    builder.add_harmonic_load(m.b, rate, cosine, sine);
+    builder.add_mesh(m);
+    const auto system = builder.build();
+    const auto response = solve(system, 16);
+    BOOST_TEST(response.converged);
+    const auto x = (cosine - 1i * sine) / (5e4 + 40i * rate - 2 * rate * rate);
+    for (Eigen::Index i = 0; i < 16; ++i) {
+      const auto turn = std::exp(1i * rate * response.time[i]);
+      record.near("displacement", "m", response.displacement(0, i), load / 5e4 + (x * turn).real(), 1e-12 * 1e-3,
+                  "rounding");
+      record.near("mesh force", "N", response.force(0, i), load + ((5e4 + 40i * rate) * x * turn).real(), 1e-12 * load,
+                  "rounding");
+    }
+    const auto found = integrated(system, 1 / frequency, 60, 16, 1e-14).displacement;
+    record.at_most("displacement less that of time integration, over the static one", "",
+                   largest(found - response.displacement) / (load / 5e4), 1e-8, "tolerance of the integrator");
+  }
+  LumpedSystemBuilder builder;
+  MeshElement m = mass.mesh;
+  m.b = builder.add_dof("x");
+  builder.add_mass(m.b, 2);
+  builder.add_load(m.b, load);
+  builder.add_harmonic_load(m.b, 0.6 * w, cosine, sine);
+  builder.add_mesh(m);
+  BOOST_CHECK_THROW((void)solve(builder.build(), 16), annulus::InputError);
+}
+
 // Mathieu's equation with load and damper, against time integration until all is still (exp(-10 x 2.5) of the start).
 BOOST_AUTO_TEST_CASE(parametric_excitation_agrees_with_time_integration) {
   annulus::test::Verification record("Parametric excitation (Mathieu's equation with load and damper)",

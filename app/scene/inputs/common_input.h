@@ -116,6 +116,7 @@ struct DynamicsInput {
   dynamics::Integrator integrator = dynamics::Integrator::automatic;
   std::optional<int> steps_per_cycle;  ///< runge_kutta_4 only
   std::optional<int> mesh_cycles;
+  int starts = 0;                            ///< initial conditions from which other motions are looked for
   std::optional<double> relative_tolerance;  ///< of the time integration; absent: what the accuracy asks for
 };
 

@@ -12,14 +12,26 @@ enum class Goal { smallest, largest };
 enum class RandomKind { uniform, normal, lognormal };
 
 /// One input run through a row of values. Values of studies are in the unit of their input, as in the file.
+/// How the motions of a row of values are found.
+enum class SweepDirection {
+  each,  ///< every value by itself
+  up,    ///< followed in time from value to value, rising
+  down,
+  both,     ///< up and down
+  branches  ///< both, and the branches of periodic motions between the ends
+};
+
 struct SweepInput {
   std::string input;               ///< key path (overrides.h)
   std::optional<double> from, to;  ///< these and `count`, or `values`
   std::optional<int> count;
   SweepScale scale = SweepScale::linear;
   std::vector<double> values;
+  SweepDirection direction = SweepDirection::each;
 
   [[nodiscard]] std::vector<double> points() const;
+  [[nodiscard]] bool goes_up() const { return direction != SweepDirection::each && direction != SweepDirection::down; }
+  [[nodiscard]] bool goes_down() const { return direction != SweepDirection::each && direction != SweepDirection::up; }
 };
 
 /// Two inputs run through all combinations of their values.

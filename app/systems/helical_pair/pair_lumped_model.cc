@@ -66,12 +66,22 @@ std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {
   auto simulation = pair_simulation(lumped.scene);
   simulation.confirmation = dynamics::Confirmation::where_needed;
   simulation.keep_series = false;
-  return std::make_unique<LumpedModel>(identity_of(lumped.id(simulation), std::string(pair_point_method)),
-                                       [pair = lumped.pair, simulation](Answer wanted) -> StudyPoint {
-                                         auto figures = dynamics::figures(dynamics::evaluate_pair(pair, simulation));
-                                         if (wanted == Answer::all) figures.add(dynamics::frequency_figures(pair));
-                                         return {.figures = {dynamics::pair_figures(), figures}};
-                                       });
+  return std::make_unique<LumpedModel>(
+      identity_of(lumped.id(simulation), std::string(pair_point_method)),
+      [pair = lumped.pair, simulation](Answer wanted) -> StudyPoint {
+        auto figures = dynamics::figures(dynamics::evaluate_pair(pair, simulation));
+        if (wanted == Answer::all) figures.add(dynamics::frequency_figures(pair));
+        return {.figures = {dynamics::pair_figures(), figures}};
+      },
+      LumpedModel::Abilities{
+          {},
+          [pair = lumped.pair, simulation](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
+            const auto response = dynamics::evaluate_pair(pair, dynamics::followed_from(simulation, start));
+            auto figures = dynamics::figures(response);
+            figures.add(dynamics::frequency_figures(pair));
+            return {{.figures = {dynamics::pair_figures(), figures}}, response.end};
+          },
+          [pair = lumped.pair] { return dynamics::lumped_case(pair); }});
 }
 
 FigureSet carried_pair_errors(const LumpedPair& lumped, const dynamics::SimulationOptions& options,

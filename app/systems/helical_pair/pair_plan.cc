@@ -114,10 +114,11 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene) {
   const double runs = comparisons(computed ? 1 : 0);
   const auto& asked = scene.dynamics->mesh_cycles;
   const bool integrated = course.compared_cycles > 0;
-  const double cycles = course.cycles + runs * course.compared_cycles + (asked ? shares * *asked : 0);
+  const double cycles =
+      course.cycles + runs * course.compared_cycles + (asked ? shares * *asked : (1 + shares) * course.searched_cycles);
   const double balances = course.balance_s * ((integrated ? 0 : 1 + runs) + (asked ? 0 : shares));
   constexpr double of_study = 1e-3;  // its model, and loss of contact at some points
-  const double study_s = of_study + course.balance_s + (asked ? *asked * per_cycle : 0);
+  const double study_s = of_study + course.balance_s + (asked ? *asked : course.searched_cycles) * per_cycle;
   return {{.label = "dynamics of the pair",
            .ring = "",
            .size = {.work = Work::response_pair,

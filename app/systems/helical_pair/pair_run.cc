@@ -163,7 +163,8 @@ std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshRes
   std::filesystem::create_directories(folder);
   const auto lumped = lumped_pair(scene, make_pair_geometry(scene), mesh, pair_errors(scene).amplitude);
   const auto& pair = lumped.pair;
-  const auto simulation = pair_simulation(scene);
+  auto simulation = pair_simulation(scene);
+  simulation.other_motions.threads = options.threads;
   auto result = std::make_unique<PairRunResponse>();
   result->pair = pair;
   auto& response = result->response;
@@ -173,6 +174,7 @@ std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshRes
   response.spectrum = spectrum_table(f);
   f.series = {};
   result->figures = carried_pair_errors(lumped, simulation, f);
+  result->motions = f.motions;
   const auto id = lumped.id(simulation);
   write_table(response.series, id, folder / "time_series.csv");
   write_table(response.spectrum, id, folder / "spectrum.csv");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/model/found_motions.h"
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/helical_pair/pair_run.h"
@@ -57,7 +58,7 @@ Json response_json_of(const PairResponseResult& response) {
                {"mesh_force_min_N", pair_figure(dynamics::loaded_force(f).smallest)},
                {"dynamic_factor", pair_figure(f.dynamic_factor)},
                {"peak_factor", pair_figure(f.peak_factor)},
-               {"contact_loss", f.contact_loss},
+               {"contact_loss", pair_figure(f.contact_loss)},
                {"acceleration_m_per_s2",
                 {{"tooth", pair_figure(f.acceleration.tooth)},
                  {"line_of_action", pair_figure(f.acceleration.line_of_action)},
@@ -66,6 +67,7 @@ Json response_json_of(const PairResponseResult& response) {
                {"transmission_error", motion_json(f.dynamic.transmission_error)},
                {"transmission_error_quasi_static", motion_json(f.quasi_static.transmission_error)},
                {"relative_motion", motion_json(f.dynamic.relative)},
+               {"motions", to_json(f.motions)},
                {"steady", f.steady},
                {"confirmed", f.confirmed},
                {"window_cycles", f.window_cycles},

@@ -58,6 +58,9 @@ std::vector<Decision> motion_decisions(const Scene& scene, const std::vector<Mes
   else
     add("tolerance", fmt::format("{:.0e}", input.relative_tolerance.value_or(choice.relative_tolerance)),
         input.relative_tolerance ? asked_for : choice.tolerance_reason);
+  if (input.starts > 0 && !input.mesh_cycles)
+    add("other motions", fmt::format("looked for from {} starts", input.starts),
+        "where a bound of the vibration comes within half of the mean deflection: backlash may then allow several");
   list.push_back(stiffness_decision(input, meshes));
   list.push_back(coupling_decision(scene, meshes));
   return list;

@@ -102,7 +102,15 @@ std::unique_ptr<LumpedModel> planetary_model(const Scene& scene, const GearGeome
         auto point = dynamics::evaluate_point(stage, {.simulation = simulation, .motion = wanted == Answer::all});
         return {.figures = {dynamics::planetary_figures(), point.figures}, .poincare = std::move(point.poincare)};
       },
-      [stage, simulation](int count, int seed) { return spread_of(stage, simulation, count, seed); });
+      LumpedModel::Abilities{
+          [stage, simulation](int count, int seed) { return spread_of(stage, simulation, count, seed); },
+          [stage, simulation](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
+            auto point = dynamics::evaluate_point(
+                stage, {.simulation = dynamics::followed_from(simulation, start), .motion = true});
+            return {{.figures = {dynamics::planetary_figures(), point.figures}, .poincare = std::move(point.poincare)},
+                    std::move(point.end)};
+          },
+          [stage] { return dynamics::lumped_case(stage); }});
 }
 
 }  // namespace annulus::app

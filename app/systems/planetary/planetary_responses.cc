@@ -61,13 +61,14 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
   const double surface_s = scene.dynamics->load_dependence == dynamics::LoadDependence::table
                                ? per_position * ring.positions * phases * (runs + of_jumps)
                                : 0;
-  const double once = asked ? *asked * per_cycle : 0;
+  const double once = (asked ? *asked : course.searched_cycles) * per_cycle;
   // A window is stored and evaluated, however many cycles lead to it.
   return {.label = fmt::format("dynamics of '{}'", name),
           .ring = name,
           .size = {.work = work_of_response(scene, tables > 0, ring),
                    .unknowns = static_cast<double>(scene.stage.planets) * std::min(period, asked.value_or(period)),
-                   .motion_s = balances + cycles * per_cycle + surface_s + tolerance_seconds(scene)},
+                   .motion_s =
+                       balances + (cycles + course.searched_cycles) * per_cycle + surface_s + tolerance_seconds(scene)},
           // Studies integrate in time only where a number of cycles is asked for.
           .study_s = course.balance_s + once,
           .sample_s = course.balance_s + once};

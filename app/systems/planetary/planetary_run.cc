@@ -106,7 +106,8 @@ std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeomet
     return make_stage(scene, geometry, ring, sun, wheel);
   };
   const auto stage = make(sun_mesh, ring_mesh);
-  const auto simulation = simulation_options(scene, stage);
+  auto simulation = simulation_options(scene, stage);
+  simulation.other_motions.threads = options.threads;
   const auto id = response_id(stage, simulation, sun_mesh, ring_mesh);
   auto [response, reused] = cached_value(options.store.get(), cached_responses, id, [&] {
     return simulate_stage(stage, simulation, {make, sun_mesh, ring_mesh});
@@ -118,6 +119,7 @@ std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeomet
   log::info(fmt::format("dynamics of '{}': {}", name, reused ? "unchanged, reused" : course_of(response.figures)));
   auto result = std::make_unique<RingResponse>();
   result->figures = response_figures(response);
+  result->motions = response.figures.motions;
   result->reused = reused;
   result->stage = std::move(response);
   result->tolerances = tolerance_sharing(scene, geometry, ring, stage, sun_mesh, ring_mesh, options);

@@ -60,13 +60,7 @@ bool depends_on_direction(const BearingInput& b) {
 
 }  // namespace
 
-bool moves_in_space(const Scene& scene) {
-  const auto& space = scene.own<SpaceInput>();
-  const bool stands_still = scene.stage.held == geometry::StageMember::carrier;
-  return !space.bearings.empty() || std::any_of(space.loads.begin(), space.loads.end(), [&](const LoadInput& load) {
-    return stands_still || load.frame == dynamics::StageFrame::carrier;
-  });
-}
+bool moves_in_space(const Scene& scene) { return scene.own<SpaceInput>().any(); }
 
 bool has_radial_bearing(const Scene& scene, dynamics::StageBody::Kind body) {
   const auto& bearings = scene.own<SpaceInput>().bearings;
@@ -104,29 +98,11 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
   std::vector<Warning> list;
   if (!space.any()) return list;
   const auto frame = spatial_frame(scene, geometry, 0);
-  const bool moves = moves_in_space(scene), turns = frame.plane.carrier_speed != 0;
-  std::vector<std::string> left_out;
-  if (space.gravity && (!moves || turns)) left_out.emplace_back("[gravity]");
-  for (const auto& load : frame.loads)
-    if (!moves || (turns && dynamics::stands_in_housing(load))) left_out.push_back("load '" + load.name + "'");
-  if (!moves) {
-    list.push_back({"loads_left_out", Severity::warning,
-                    fmt::format("{} {} part in annulus statics alone: without [[bearing]] tables no body moves along "
-                                "the axis or tilts in the dynamics",
-                                fmt::join(left_out, ", "), left_out.size() > 1 ? "take" : "takes")});
-    return list;
-  }
-  if (!left_out.empty())
-    list.push_back({"loads_left_out", Severity::warning,
-                    fmt::format("the dynamics has only the part along the axis of {}, and the stiffness that bearings "
-                                "in the housing have under all of it. The rest turns past the carrier: what it does to "
-                                "load sharing and K_Hβ is in annulus statics",
-                                fmt::join(left_out, ", "))});
   if (space.gravity && (space.gravity->sun != 0 || space.gravity->planet != 0 || space.gravity->ring != 0 ||
                         space.gravity->carrier != 0))
     list.push_back({"mass_in_middle", Severity::warning,
-                    "the dynamics has the centres of mass of all bodies in the middle of the face of [stage]; those of "
-                    "[gravity] act in annulus statics"});
+                    "the inertia of all bodies acts in the middle of the face of [stage] in the dynamics, their weight "
+                    "in the places of [gravity]"});
   std::vector<std::string> bent, directed;
   for (const auto& b : space.bearings) {
     if (bends(b)) bent.push_back("'" + b.name + "'");

@@ -11,10 +11,10 @@
 #include "app/scene/scene.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
-/// The dynamics of a planetary stage whose bodies have [[bearing]] tables.
+/// The dynamics of a planetary stage with bearings, loads and gravity in space.
 namespace annulus::app {
 
-/// Whether [[bearing]] or [[load]] tables take part in the dynamics.
+/// Whether the scene has [[bearing]] or [[load]] tables or [gravity], with which its bodies move in space.
 [[nodiscard]] bool moves_in_space(const Scene& scene);
 
 /// Whether a body, or every planet, has a [[bearing]] that holds it radially.

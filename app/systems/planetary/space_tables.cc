@@ -156,11 +156,8 @@ Table bearing_table() {
 }
 
 Table load_table() {
-  auto load =
-      declare_list("load",
-                   "A force and a moment on a body from without, beside the torque of [stage]. The dynamics has "
-                   "none that the carrier turns past.",
-                   &SpaceInput::loads);
+  auto load = declare_list("load", "A force and a moment on a body from without, beside the torque of [stage].",
+                           &SpaceInput::loads);
   load.on_request();
   load.key("name", &LoadInput::name, "Name in results.").required();
   declare_body(load, "The body on which it acts.");
@@ -185,13 +182,10 @@ Table load_table() {
 }
 
 Table gravity_table() {
-  Declarations<GravityInput> gravity("gravity",
-                                     "Weight of all bodies. The dynamics has its part along the axis alone; annulus "
-                                     "statics all of it.",
-                                     [](Scene& s, std::size_t) -> GravityInput& {
-                                       auto& g = s.own<SpaceInput>().gravity;
-                                       return g ? *g : g.emplace();
-                                     });
+  Declarations<GravityInput> gravity("gravity", "Weight of all bodies.", [](Scene& s, std::size_t) -> GravityInput& {
+    auto& g = s.own<SpaceInput>().gravity;
+    return g ? *g : g.emplace();
+  });
   gravity.on_request();
   gravity.key("acceleration_m_per_s2", &GravityInput::acceleration, "Acceleration of gravity.")
       .fallback(9.80665, "standard gravity")

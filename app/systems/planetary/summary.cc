@@ -1,3 +1,4 @@
+#include "app/model/found_motions.h"
 #include "app/systems/planetary/planetary_run.h"
 
 #include <fmt/format.h>
@@ -147,6 +148,7 @@ Json ring_json(const RunResult& result, std::size_t number) {
   json["poincare"] = {{"section", m.section},
                       {"period_cycles", m.section_period ? Json(*m.section_period) : Json(nullptr)},
                       {"clusters", m.section_clusters}};
+  json["motions"] = to_json(f.motions);
   json["dynamics"] = {{"steady", f.steady},
                       {"steady_difference", json_number(f.steady_difference)},
                       {"window_cycles", f.window_cycles},

@@ -21,7 +21,7 @@ ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_fa
 ANNULUS_MEMBERS(dynamics::ArcBearingResult, crank, arc_gear, largest, mean);
 ANNULUS_MEMBERS(app::TwoKVMotion, crank_frequency, sun_frequency, arc_frequency, mean_sun_force, mean_arc_force,
                 crank_turns, total_cycles, steady, steady_difference, torque_balance, largest_multiplier, energy,
-                peak_to_peak, error_mean, static_mean, static_peak_to_peak, sun_planet, arc_pins, arc_bearings, results,
-                output_error, static_error, spectrum, forces, time_series, reused);
+                motions, peak_to_peak, error_mean, static_mean, static_peak_to_peak, sun_planet, arc_pins, arc_bearings,
+                results, output_error, static_error, spectrum, forces, time_series, reused);
 
 }  // namespace annulus

@@ -92,6 +92,7 @@ TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVRe
   m.crank_turns = r.crank_turns;
   m.total_cycles = r.total_cycles;
   m.steady = r.steady;
+  m.motions = r.motions;
   m.steady_difference = r.steady_difference;
   m.torque_balance_relative = r.torque_balance_relative;
   m.largest_multiplier = r.largest_multiplier;

@@ -22,6 +22,7 @@ struct TwoKVMotion {
   bool steady = false;
   std::optional<double> steady_difference, torque_balance_relative, largest_multiplier;
   double energy_relative = 0;
+  dynamics::FoundMotions motions;
   Figure error_peak_to_peak;  ///< of the output against the input
   double error_mean = 0, static_error_mean = 0, static_error_peak_to_peak = 0;
   std::vector<dynamics::BranchResult> sun_planet, arc_pins;

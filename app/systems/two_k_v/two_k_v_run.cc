@@ -51,7 +51,8 @@ std::unique_ptr<TwoKVResponse> two_k_v_response(const Scene& scene, const RunVar
   auto result = std::make_unique<TwoKVResponse>();
   result->vibration = vibration_of(models.at_nominal, models.arc_clearance, published);
   write_vibration(result->vibration, folder);
-  const auto simulation = two_k_v_simulation(scene, models.moving);
+  auto simulation = two_k_v_simulation(scene, models.moving);
+  simulation.other_motions.threads = options.threads;
   const auto id = two_k_v_id(models, simulation, both);
   auto [motion, reused] =
       cached_value(options.store.get(), cached_motions, id, [&] { return simulate_two_k_v(scene, both, simulation); });
@@ -65,6 +66,7 @@ std::unique_ptr<TwoKVResponse> two_k_v_response(const Scene& scene, const RunVar
   motion.time_series.clear();
   motion.reused = reused;
   result->figures = motion.results;
+  result->motions = motion.motions;
   result->reused = reused;
   result->motion = std::move(motion);
   return result;

@@ -1,3 +1,4 @@
+#include "app/model/found_motions.h"
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
@@ -52,6 +53,7 @@ Json vibration_json(const TwoKVVibration& v) {
 
 Json motion_summary(const TwoKVMotion& m) {
   Json json = {
+      {"motions", to_json(m.motions)},
       {"steady", m.steady},
       {"steady_difference", json_number(m.steady_difference)},
       {"largest_multiplier", json_number(m.largest_multiplier)},

@@ -57,14 +57,24 @@ class TwoKVSystem final : public GearSystem {
     auto simulation = two_k_v_simulation(scene(), models.moving);
     simulation.keep_series = false;
     return std::make_unique<LumpedModel>(
-        two_k_v_id(models, simulation, both), [models, simulation](Answer wanted) -> StudyPoint {
+        two_k_v_id(models, simulation, both),
+        [models, simulation](Answer wanted) -> StudyPoint {
           auto figures = dynamics::static_figures(models.at_nominal, models.arc_clearance);
           if (wanted == Answer::without_motion)
             figures.set("steady", 1);  // nothing was integrated
           else
             figures.add(dynamics::figures(models.moving, dynamics::simulate(models.moving, simulation)));
           return {.figures = {dynamics::two_k_v_figures(), figures}};
-        });
+        },
+        LumpedModel::Abilities{{},
+                               [models, simulation](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
+                                 auto figures = dynamics::static_figures(models.at_nominal, models.arc_clearance);
+                                 const auto response =
+                                     dynamics::simulate(models.moving, dynamics::followed_from(simulation, start));
+                                 figures.add(dynamics::figures(models.moving, response));
+                                 return {{.figures = {dynamics::two_k_v_figures(), figures}}, response.end};
+                               },
+                               {}});
   }
 
   [[nodiscard]] std::vector<PlannedResponse> responses() const override { return two_k_v_responses(scene()); }

@@ -72,6 +72,7 @@ std::vector<FigureSpec> pair_specs() {
                         "Relative motion with the bending of shafts and bearings, peak to peak",
                         "peak-to-peak value over time of y_1 + u_1 - y_2 + u_2"));
   list.push_back(steady_figure());
+  list.push_back(motions_figure());
   const auto frequencies = frequency_specs(
       pair_frequencies, "undamped natural frequencies above zero, rising, with the mean mesh stiffness");
   list.insert(list.end(), frequencies.begin(), frequencies.end());
@@ -114,6 +115,7 @@ FigureSet figures(const PairResponse& r) {
   set.set("relative_motion_max_m", r.dynamic.relative.largest);
   set.set("relative_motion_peak_to_peak_m", r.dynamic.relative.peak_to_peak);
   set.set("steady", r.steady ? 1 : 0);
+  set.set(motions_key, number_of(r.motions));
   return set;
 }
 

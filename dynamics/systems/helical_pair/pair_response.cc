@@ -151,12 +151,11 @@ double error_force(const HelicalPair& pair) {
          force(pair.pinion.error, pair.pinion_speed) + force(pair.wheel.error, pair.wheel_speed());
 }
 
-SteadyResponse pair_steady_state(const HelicalPair& pair, const LumpedSystem& system,
-                                 const SimulationOptions& options) {
-  const SteadyProblem problem{pair.mesh_frequency(), pair.error_period(),
-                              std::max(std::abs(pair.static_force()), error_force(pair)), mean_stiffness(pair.mesh)};
+SteadyResponse pair_steady_state(const LumpedCase& lumped, const SimulationOptions& options) {
+  const auto& [system, problem] = lumped;
   if (options.confirmation == Confirmation::always) return steady_response(system, problem, options);
   auto quick = options;
+  quick.other_motions.starts = 0;
   if (problem.period_in_cycles > long_window)
     quick.samples_per_cycle = std::min(quick.samples_per_cycle, enough_samples(problem.period_in_cycles));
   quick.min_window_cycles = std::min(options.min_window_cycles, 2 * problem.period_in_cycles);
@@ -164,7 +163,10 @@ SteadyResponse pair_steady_state(const HelicalPair& pair, const LumpedSystem& sy
   auto found = steady_response(system, problem, quick);
   const bool unsure = found.total_cycles == 0 && may_miss(system, *found.periodic, options.confirm_beyond);
   const bool confirmed_where_needed = options.confirmation == Confirmation::where_needed && !options.mesh_cycles;
-  if (!confirmed_where_needed || (found.best.open[0] == 0 && !unsure)) return found;
+  if (!confirmed_where_needed || (found.best.open[0] == 0 && !unsure)) {
+    look_for_other_motions(system, problem, options, found);
+    return found;
+  }
   auto thorough = options;
   thorough.confirmation = Confirmation::always;
   return steady_response(system, problem, thorough);
@@ -172,15 +174,23 @@ SteadyResponse pair_steady_state(const HelicalPair& pair, const LumpedSystem& sy
 
 }  // namespace
 
-PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& options) {
-  const LumpedSystem system = assemble(pair);
+LumpedCase lumped_case(const HelicalPair& pair) {
+  auto system = assemble(pair);
   if (!(pair.pinion_speed > 0))
     throw InputError(
         fmt::format("a time response of a pair needs a speed above zero, not {} rad/s", pair.pinion_speed));
   if (pair.pinion_torque == 0 && error_force(pair) == 0)
     throw InputError(
         "a time response of a pair needs a torque or errors: torque 0 N m and errors of 0 m excite nothing");
-  auto found = pair_steady_state(pair, system, options);
+  return {std::move(system),
+          {pair.mesh_frequency(), pair.error_period(), std::max(std::abs(pair.static_force()), error_force(pair)),
+           mean_stiffness(pair.mesh)}};
+}
+
+PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& options) {
+  const auto lumped = lumped_case(pair);
+  const auto& system = lumped.system;
+  auto found = pair_steady_state(lumped, options);
 
   PairResponse response;
   response.mesh_frequency = pair.mesh_frequency();
@@ -196,7 +206,7 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
                          : f > 0 ? Figure{response.force_max.value / f, response.force_max.error / f}
                                  : Figure{response.force_min.value / f, -response.force_min.error / f};
   response.dynamic_factor = f == 0 ? none : branch_results(found, 0, 1, std::abs(f)).front().dynamic_factor;
-  response.contact_loss = found.best.open[0];
+  response.contact_loss = branch_results(found, 0, 1, lumped.problem.force_scale).front().contact_loss;
   response.acceleration = {evidence.acceleration(&WindowPeaks::line_of_action),
                            evidence.acceleration(&WindowPeaks::axial), evidence.acceleration(&WindowPeaks::rotation),
                            evidence.acceleration(&WindowPeaks::tooth, 2)};

@@ -42,7 +42,7 @@ struct PairResponse : SteadyOutcome {
   double force_mean = 0;        ///< N
   Figure dynamic_factor;        ///< K_V, see BranchResult
   Figure peak_factor;           ///< largest F / static force; NaN without a torque
-  double contact_loss = 0;      ///< fraction of the time without contact
+  Figure contact_loss;          ///< fraction of the time without contact
   PairAccelerations acceleration;
   PairMotions dynamic;
   PairMotions quasi_static;  ///< without inertia, damping and speed; no errors are estimated
@@ -59,6 +59,8 @@ struct PairResponse : SteadyOutcome {
 /// integration decides. Throws InputError without speed, or without both torque and errors, and what `steady_response`
 /// throws.
 [[nodiscard]] PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& options = {});
+/// The system that it solves. Throws InputError without speed, or without both torque and errors.
+[[nodiscard]] LumpedCase lumped_case(const HelicalPair& pair);
 
 /// Peak-to-peak transmission error u_1 + u_2, m.
 struct PeakToPeak {

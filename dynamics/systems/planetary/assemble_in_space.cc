@@ -127,6 +127,7 @@ class SpaceBodies {
     for (int n = 0; n < stage_.planets(); ++n) add_body({Kind::planet, n});
     for (const auto& bearing : stage_.space->bearings) add_spring(bearing);
     for (const auto& load : stage_.space->loads) add_load(load);
+    for (const auto& load : stage_.space->standing_loads) add_load(load);
     add_dampers();
     return std::move(forms_);
   }
@@ -197,18 +198,35 @@ class SpaceBodies {
     const auto d = relative_motion(stage_, forms_, bearing.body, bearing.on);
     const auto move = to_place(bearing.place);
     const Vector force = move.transpose() * bearing.preload;
-    for (Eigen::Index i = 0; i < 5; ++i) builder_.add_load(d[static_cast<std::size_t>(i)], -force[i]);
+    const Vector standing = move.transpose() * bearing.standing, later = quarter_turn_later(standing);
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      const auto& coordinate = d[static_cast<std::size_t>(i)];
+      builder_.add_load(coordinate, -force[i]);
+      builder_.add_harmonic_load(coordinate, stage_.carrier_speed, -standing[i], -later[i]);
+    }
     const std::string name = bearing.element();
     for (const auto& [stiffness, form] :
          squares(moved_along_axis(bearing.stiffness, bearing.place), d, data_of(stage_, bearing.body).radius))
       builder_.add_spring(form, stiffness, 0, name);
   }
 
+  /// The coordinates of a body on which forces and moments do work.
+  [[nodiscard]] std::array<LinearForm, 6> loaded(const StageBody& body) {
+    const BodyForms& b = forms_of(forms_, body);
+    return {b.x, b.y, b.z, b.tilt_x, b.tilt_y, (1 / data_of(stage_, body).radius) * b.u};
+  }
+
   void add_load(const SpaceLoad& load) {
-    const BodyForms& b = forms_of(forms_, load.body);
-    const double length = data_of(stage_, load.body).radius;
-    const std::array<LinearForm, 6> forms{b.x, b.y, b.z, b.tilt_x, b.tilt_y, (1 / length) * b.u};
-    for (std::size_t i = 0; i < 6; ++i) builder_.add_load(forms.at(i), load.load[static_cast<Eigen::Index>(i)]);
+    Eigen::Index i = 0;
+    for (const auto& form : loaded(load.body)) builder_.add_load(form, load.load[i++]);
+  }
+
+  void add_load(const StandingLoad& load) {
+    Eigen::Index i = 0;
+    for (const auto& form : loaded(load.body)) {
+      builder_.add_harmonic_load(form, stage_.carrier_speed, load.cosine[i], load.sine[i]);
+      ++i;
+    }
   }
 
   struct Square {

@@ -92,12 +92,17 @@ std::vector<std::pair<std::string, double>> planet_form(const PlanetaryStage& st
   return named;
 }
 
-/// Transverse load on a body in space, N, in its axes.
-Eigen::Vector2d space_load(const PlanetaryStage& stage, const StageBody& body) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  if (stage.space)
-    for (const auto& load : stage.space->loads)
-      if (load.body == body) sum += load.load.head<2>();
+/// Transverse load on a body in space, N, in its axes, x times.
+Eigen::MatrixXd space_load(const PlanetaryStage& stage, const StageBody& body, const Eigen::VectorXd& time) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(2, time.size());
+  if (!stage.space) return sum;
+  for (const auto& load : stage.space->loads)
+    if (load.body == body) sum.colwise() += load.load.head<2>();
+  const Eigen::ArrayXd angle = stage.carrier_speed * time.array();
+  for (const auto& load : stage.space->standing_loads)
+    if (load.body == body)
+      sum += load.cosine.head<2>() * angle.cos().matrix().transpose() +
+             load.sine.head<2>() * angle.sin().matrix().transpose();
   return sum;
 }
 
@@ -159,9 +164,10 @@ BearingForces pin_forces(const PlanetaryStage& stage, const TimeSeries& series, 
       (radial ? result.radial : result.tangential).row(n) =
           spring ? motion.force(*spring) : pin_force_by_equilibrium(stage, series, motion, n, direction);
     }
-    const Eigen::Vector2d load = space_load(stage, {StageBody::Kind::planet, n});
-    result.radial.row(n).array() += centrifugal + load[0];
-    result.tangential.row(n).array() += load[1];
+    const auto load = space_load(stage, {StageBody::Kind::planet, n}, series.time);
+    result.radial.row(n) += load.row(0);
+    result.radial.row(n).array() += centrifugal;
+    result.tangential.row(n) += load.row(1);
   }
   return result;
 }
@@ -176,9 +182,9 @@ StageBody::Kind kind_of(StageMember member) {
 SupportReaction applied(const PlanetaryStage& stage, const TimeSeries& series, Motion& motion, StageMember member) {
   const auto zero = Eigen::VectorXd::Zero(series.time.size());
   SupportReaction sum{zero, zero, zero};
-  const Eigen::Vector2d load = space_load(stage, {kind_of(member)});
-  sum.x.array() += load[0];
-  sum.y.array() += load[1];
+  const auto load = space_load(stage, {kind_of(member)}, series.time);
+  sum.x += load.row(0).transpose();
+  sum.y += load.row(1).transpose();
   if (member == StageMember::carrier) {
     const auto pins = pin_forces(stage, series, motion);
     for (int n = 0; n < stage.planets(); ++n) {

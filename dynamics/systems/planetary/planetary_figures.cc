@@ -69,6 +69,7 @@ std::vector<FigureSpec> planetary_specs() {
   declare_meshes(list, sun_meshes, "sun meshes", MeshKind::sun);
   declare_meshes(list, ring_meshes, "ring meshes", MeshKind::ring);
   list.push_back(steady_figure());
+  list.push_back(motions_figure());
   declare_motion(list, "sun", "Motion of the sun", "the distance of the sun's centre from its mean position");
   list[list.size() - 2].plotted = true;
   declare_motion(list, "sun_planet_deflection", "Deflection of the sun mesh",
@@ -104,6 +105,7 @@ FigureSet figures(const DynamicResponse& response) {
   add(set, sun_meshes, response.sun_planet);
   add(set, ring_meshes, response.ring_planet);
   set.set("steady", response.steady ? 1 : 0);
+  set.set(motions_key, number_of(response.motions));
   return set;
 }
 

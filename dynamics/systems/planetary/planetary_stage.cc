@@ -188,7 +188,8 @@ int PlanetaryStage::error_period() const {
         period = common_period(period, static_cast<int>(std::lround(error.curve.period())));
   if (sun.errors.eccentricity.exists()) period = common_period(period, sun_teeth);
   if (ring.errors.eccentricity.exists()) period = common_period(period, ring_teeth);
-  if (sun.errors.position.exists() || ring.errors.position.exists() || carrier.errors.position.exists())
+  if (sun.errors.position.exists() || ring.errors.position.exists() || carrier.errors.position.exists() ||
+      (space && space->depends_on_carrier_angle()))
     period = common_period(period, cycles_of_housing(*this));
   return period;
 }

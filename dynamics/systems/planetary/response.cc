@@ -70,22 +70,27 @@ double force_balance(const PlanetaryStage& stage, const LumpedSystem& system, co
   const double support = system.stiffness()(u, u) * found.best.displacement.row(u).mean() +
                          system.damping()(u, u) * (found.end.q[u] - found.begin.q[u]) / duration;
   const double inertia = system.mass()(u, u) * (found.end.v[u] - found.begin.v[u]) / duration;
-  return std::abs((forces + support + inertia) / system.load()[u] - 1);
+  double load = 0;
+  for (const double t : found.best.time) load += system.load_at(t)[u] / static_cast<double>(found.best.time.size());
+  return std::abs((forces + support + inertia) / load - 1);
 }
 
 }  // namespace
 
-DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options) {
+LumpedCase lumped_case(const PlanetaryStage& stage) {
   check_simulation(stage);
+  return {assemble(stage),
+          {.mesh_frequency = stage.mesh_frequency(),
+           .period_in_cycles = stage.error_period(),
+           .force_scale = stage.mean_mesh_force(),
+           .stiffness = mean_stiffness(stage.sun_mesh)}};
+}
+
+DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options) {
+  const auto [system, problem] = lumped_case(stage);
   DynamicResponse response;
-  response.mesh_frequency = stage.mesh_frequency();
-  response.mean_mesh_force = stage.mean_mesh_force();
-  const LumpedSystem system = assemble(stage);
-  const SteadyProblem problem{.mesh_frequency = response.mesh_frequency,
-                              .period_in_cycles = stage.error_period(),
-                              .force_scale = response.mean_mesh_force,
-                              .stiffness = mean_stiffness(stage.sun_mesh),
-                              .start = options.start};
+  response.mesh_frequency = problem.mesh_frequency;
+  response.mean_mesh_force = problem.force_scale;
   auto found = steady_response(system, problem, options);
   static_cast<SteadyOutcome&>(response) = static_cast<const SteadyOutcome&>(found);
   response.cycle_force = cycle_means(

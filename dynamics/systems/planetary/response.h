@@ -34,6 +34,8 @@ struct DynamicResponse : SteadyOutcome {
 /// Throws InputError when the stage or the options are not usable (no speed, no torque, a load out of balance because
 /// no support resists it), SolverError when the integrator fails.
 [[nodiscard]] DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options = {});
+/// The system that it solves. Throws InputError when the stage is not usable.
+[[nodiscard]] LumpedCase lumped_case(const PlanetaryStage& stage);
 
 /// Quasi-static mesh forces: K q + sum b k g(b^T q - e(t)) = f at equidistant positions from time 0 on. They span the
 /// error period or its first `max_cycles` mesh cycles.

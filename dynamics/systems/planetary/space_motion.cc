@@ -17,6 +17,7 @@ SpaceMotion space_motion(const PlanetaryStage& stage, const TimeSeries& series) 
   const auto forms = add_bodies_in_space(builder, stage);
   const Eigen::Index times = series.time.size(), meshes = 2 * static_cast<Eigen::Index>(stage.planets());
   require(series.force.rows() == 2 * meshes, fmt::format("{} forces of {} meshes", series.force.rows(), meshes));
+  const Eigen::ArrayXd angle = stage.carrier_speed * series.time.array();
   for (const auto& b : stage.space->bearings) {
     if (b.stiffness.isZero(0)) continue;  // all that it does is rigid
     const auto d = relative_motion(stage, forms, b.body, b.on);
@@ -26,6 +27,9 @@ SpaceMotion space_motion(const PlanetaryStage& stage, const TimeSeries& series) 
         motion.row(i) += factor * series.displacement.row(dof);
     SpaceMotion::Bearing bearing{b.element(), b.body, b.on, -b.stiffness * (to_place(b.place) * motion)};
     bearing.force.colwise() -= b.preload;
+    if (b.standing.any())
+      bearing.force -= b.standing * angle.cos().matrix().transpose() +
+                       quarter_turn_later(b.standing) * angle.sin().matrix().transpose();
     for (Eigen::Index i = 0; i < 5; ++i)
       if (b.rigid.at(static_cast<std::size_t>(i))) bearing.force.row(i).setConstant(not_known);
     result.bearings.push_back(std::move(bearing));

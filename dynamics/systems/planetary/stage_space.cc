@@ -52,21 +52,32 @@ void StageSpace::check(int planets) const {
   for (const auto& b : bearings) {
     check_body(b.body, "bearing '" + b.name + "'");
     check_body(b.on, "bearing '" + b.name + "'");
-    if (!b.stiffness.allFinite() || !b.preload.allFinite() || !std::isfinite(b.place))
+    if (!b.stiffness.allFinite() || !b.preload.allFinite() || !b.standing.allFinite() || !std::isfinite(b.place))
       throw InputError(fmt::format("bearing '{}' has a stiffness, force or place that is not finite", b.name));
     constexpr double rounding = 1e-9;
     if (const double skew = (b.stiffness - b.stiffness.transpose()).cwiseAbs().maxCoeff();
         skew > rounding * b.stiffness.cwiseAbs().maxCoeff())
       throw InputError(fmt::format("the stiffness of bearing '{}' differs from its transpose by {:g}", b.name, skew));
+    if (b.on.kind != StageBody::Kind::housing && b.standing.any())
+      throw InputError(fmt::format("bearing '{}' has a force that stands in the housing, but is not in it", b.name));
     if (b.on.kind == StageBody::Kind::planet || b.body.kind == StageBody::Kind::housing)
       throw InputError(fmt::format("bearing '{}' supports the housing or stands on a planet", b.name));
   }
-  for (const auto& load : loads) {
-    check_body(load.body, "a load");
-    if (load.body.kind == StageBody::Kind::housing || !load.load.allFinite())
-      throw InputError(fmt::format("a load on the {} is not finite or acts on the housing", name_of_body(load.body)));
-  }
+  const auto check_load = [&](const StageBody& body, bool finite) {
+    check_body(body, "a load");
+    if (body.kind == StageBody::Kind::housing || !finite)
+      throw InputError(fmt::format("a load on the {} is not finite or acts on the housing", name_of_body(body)));
+  };
+  for (const auto& load : loads) check_load(load.body, load.load.allFinite());
+  for (const auto& load : standing_loads) check_load(load.body, load.cosine.allFinite() && load.sine.allFinite());
 }
+
+bool StageSpace::depends_on_carrier_angle() const {
+  return !standing_loads.empty() ||
+         std::any_of(bearings.begin(), bearings.end(), [](const auto& b) { return b.standing.any(); });
+}
+
+LinearBearing::Vector quarter_turn_later(const LinearBearing::Vector& s) { return {s[1], -s[0], s[2], s[4], -s[3]}; }
 
 const std::vector<FacePlace>& face_places() {
   using Rule = boost::math::quadrature::gauss<double, 20>;

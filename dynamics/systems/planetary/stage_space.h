@@ -23,6 +23,8 @@ struct LinearBearing {
   Stiffness stiffness = Stiffness::Zero();  ///< K, symmetric: N/m, N, N m/rad; 0 in rigid coordinates
   std::array<bool, 5> rigid{};              ///< these coordinates stay 0; of central bodies only against the housing
   Vector preload = Vector::Zero();          ///< f: N, N m
+  /// Of a bearing in the housing: a part of f that stands still there, in the axes of the carrier at time 0.
+  Vector standing = Vector::Zero();
   /// Its name among springs, in columns and in groups of modal energy: "planet1_upwind_row".
   [[nodiscard]] std::string element() const;
 };
@@ -31,6 +33,13 @@ struct LinearBearing {
 struct SpaceLoad {
   StageBody body;
   Eigen::Matrix<double, 6, 1> load = Eigen::Matrix<double, 6, 1>::Zero();
+};
+
+/// Force (N) and moment (N m) on a body that stand still in the housing, as the carrier turns past it: in the axes of
+/// the body, cosine x cos(angle) + sine x sin(angle) of the carrier's angle.
+struct StandingLoad {
+  StageBody body;
+  Eigen::Matrix<double, 6, 1> cosine = Eigen::Matrix<double, 6, 1>::Zero(), sine = cosine;
 };
 
 /// What a stage has beside that of the plane (PlanetaryStage) where its bodies move along the axis and tilt. All of its
@@ -53,10 +62,16 @@ struct StageSpace {
   TiltInertia tilt_inertia;
   std::vector<LinearBearing> bearings;
   std::vector<SpaceLoad> loads;
+  std::vector<StandingLoad> standing_loads{};
 
+  /// Whether forces change as the carrier turns past the housing.
+  [[nodiscard]] bool depends_on_carrier_angle() const;
   /// Throws InputError with name and value of the quantity that cannot be used.
   void check(int planets) const;
 };
+
+/// What stands in the housing, in the axes of the carrier a quarter turn later.
+[[nodiscard]] LinearBearing::Vector quarter_turn_later(const LinearBearing::Vector& standing);
 
 /// Places at which the load along a face is found, from -1 to 1 (end to end), those of Gauss, and their weights, which
 /// add up to 1. A straight approach of flanks that carry all over gives exact forces and moments. Where the contact

@@ -55,7 +55,7 @@ void set_motion(FigureSet& figures, const std::string& what, const MotionRange& 
 
 PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& options) {
   const auto response = response_of_point(stage, options);
-  PointFigures point{.figures = figures(response), .window_cycles = response.window_cycles};
+  PointFigures point{.figures = figures(response), .window_cycles = response.window_cycles, .end = response.end};
   if (!options.motion) return point;
   const auto system = assemble(stage);
   const auto& series = response.series;

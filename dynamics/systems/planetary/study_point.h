@@ -14,6 +14,7 @@ struct PointFigures {
   /// `motion`. Motion of the sun: NaN when it is rigid.
   FigureSet figures;
   int window_cycles = 0;
+  SystemState end{};                      ///< of the window
   std::vector<PoincarePoint> poincare{};  ///< with motion: one per mesh cycle of the window, `poincare_cycles` at most
 };
 

@@ -15,9 +15,29 @@ using Kind = StageBody::Kind;
 using Stiffness = LinearBearing::Stiffness;
 using Vector = LinearBearing::Vector;
 
+/// The mean of a stiffness that stands in the housing, as the carrier turns past it.
+Stiffness mean_over_turn(const Stiffness& stiffness) {
+  constexpr int angles = 8;  // second harmonics of the angle vanish
+  Stiffness sum = Stiffness::Zero();
+  for (int k = 0; k < angles; ++k) {
+    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(2 * std::numbers::pi * k / angles).toRotationMatrix();
+    Stiffness all = Stiffness::Identity();
+    all.topLeftCorner<2, 2>() = turn;
+    all.bottomRightCorner<2, 2>() = turn;
+    sum += all.transpose() * stiffness * all / angles;
+  }
+  return sum;
+}
+
+struct Linearised {
+  LinearBearing bearing;
+  Vector deflection = Vector::Zero();  ///< of the coordinates that something elastic resists
+};
+
 /// Tangents, forces and rigid coordinates of a bearing in a state.
-LinearBearing linear(const StageMechanism::Bearing& bearing, const Mechanism::Equilibrium& at) {
-  LinearBearing result;
+Linearised linear(const StageMechanism::Bearing& bearing, const Mechanism::Equilibrium& at) {
+  Linearised found;
+  LinearBearing& result = found.bearing;
   result.name = bearing.name;
   // A bearing of every planet has the planet in its name as well.
   if (const auto own = " " + name_of_body(bearing.body); result.name.ends_with(own))
@@ -31,6 +51,7 @@ LinearBearing linear(const StageMechanism::Bearing& bearing, const Mechanism::Eq
     if (element < 0) continue;
     const auto row = static_cast<Eigen::Index>(i);
     const auto& state = at.state[static_cast<std::size_t>(element)];
+    found.deflection[row] = at.deflection[static_cast<std::size_t>(element)][bearing.coordinate.at(i)];
     result.preload[row] = state.force[bearing.coordinate.at(i)];
     for (std::size_t j = 0; j < 5; ++j) {
       if (bearing.element.at(j) != element) continue;
@@ -39,21 +60,18 @@ LinearBearing linear(const StageMechanism::Bearing& bearing, const Mechanism::Eq
       result.preload[row] -= tangent * at.deflection[static_cast<std::size_t>(element)][bearing.coordinate.at(j)];
     }
   }
-  return result;
+  return found;
 }
 
-/// The mean of a stiffness that stands in the housing, as the carrier turns past it.
-Stiffness mean_over_turn(const Stiffness& stiffness) {
-  constexpr int angles = 8;  // second harmonics of the angle vanish
-  Stiffness sum = Stiffness::Zero();
-  for (int k = 0; k < angles; ++k) {
-    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(2 * std::numbers::pi * k / angles).toRotationMatrix();
-    Stiffness all = Stiffness::Identity();
-    all.topLeftCorner<2, 2>() = turn;
-    all.bottomRightCorner<2, 2>() = turn;
-    sum += all.transpose() * stiffness * all / angles;
-  }
-  return sum;
+/// A bearing in the housing under loads that stand there: its mean stiffness, and the force beside it that stands.
+LinearBearing under_standing_loads(const Linearised& found) {
+  LinearBearing result = found.bearing;
+  result.stiffness = mean_over_turn(found.bearing.stiffness);
+  result.standing = result.preload + (found.bearing.stiffness - result.stiffness) * found.deflection;
+  constexpr Eigen::Index axial = 2;
+  result.preload = result.standing[axial] * Vector::Unit(axial);
+  result.standing[axial] = 0;
+  return result;
 }
 
 /// The bearings of one planet on its pin as one in the planet's middle.
@@ -99,8 +117,8 @@ bool stands_in_housing(const StageLoad& load) {
 
 namespace {
 
-/// The loads that act in the dynamics: of what the carrier turns past, the part along the axis. Planets have their
-/// centrifugal forces.
+/// Loads at which planets and what turns with the carrier work: of what the carrier turns past, the part along the
+/// axis. Planets have their centrifugal forces.
 SpatialStage without_standing_loads(const SpatialStage& stage) {
   auto turning = stage;
   const auto& plane = stage.plane;
@@ -125,16 +143,46 @@ SpatialStage without_standing_loads(const SpatialStage& stage) {
   return turning;
 }
 
-/// A load about the middle of its body, in the axes of the body, at time 0.
-SpaceLoad about_middle(const SpatialStage& stage, const StageLoad& load) {
-  const auto axes = frame_axes(stage, load.frame, load.body, 0);
+/// A load about the middle of its body, in the axes of the body, at time t (s).
+Eigen::Matrix<double, 6, 1> about_middle(const SpatialStage& stage, const StageLoad& load, double t) {
+  const auto axes = frame_axes(stage, load.frame, load.body, t);
   const Eigen::Vector3d point = axes * load.point, force = axes * load.force;
   const Eigen::Vector3d moment = axes * load.moment + point.cross(force);
   const bool planet = load.body.kind == Kind::planet;
   const auto own = frame_axes(stage, planet ? StageFrame::planet : StageFrame::carrier, load.body, 0);
-  SpaceLoad result{load.body};
-  result.load << own.transpose() * force, own.transpose() * moment;
+  Eigen::Matrix<double, 6, 1> result;
+  result << own.transpose() * force, own.transpose() * moment;
+  // The shaft of the carrier bears the torque of a force beside the axis, as in the statics.
+  if (load.body.kind == Kind::carrier) result[5] = 0;
   return result;
+}
+
+/// Adds the part of a load that does not change as the carrier turns, and the one that does.
+void add_load(const SpatialStage& stage, const StageLoad& load, StageSpace& space) {
+  const double speed = stage.plane.carrier_speed;
+  const auto now = about_middle(stage, load, 0);
+  if (speed == 0 || !stands_in_housing(load)) {
+    space.loads.push_back({load.body, now});
+    return;
+  }
+  const auto later = about_middle(stage, load, std::numbers::pi / speed);
+  const auto quarter = about_middle(stage, load, std::numbers::pi / (2 * speed));
+  SpaceLoad constant{load.body, (now + later) / 2};
+  constexpr double rounding = 1e-14;
+  const double force = now.head<3>().norm(), moment = now.tail<3>().norm();
+  for (Eigen::Index i = 0; i < 6; ++i)
+    if (std::abs(constant.load[i]) <= rounding * (i < 3 ? force : moment)) constant.load[i] = 0;
+  if (constant.load.any()) space.loads.push_back(constant);
+  space.standing_loads.push_back({load.body, now - constant.load, quarter - constant.load});
+}
+
+/// All loads and weights of a stage.
+std::vector<StageLoad> all_loads(const SpatialStage& stage) {
+  auto loads = stage.loads;
+  for (const auto& weight : stage.weights)
+    loads.push_back({"weight", weight.body, StageFrame::housing, weight.place * Eigen::Vector3d::UnitZ(),
+                     weight.mass * stage.gravity, Eigen::Vector3d::Zero()});
+  return loads;
 }
 
 /// Takes what holds along the axis and against tilting off a bearing.
@@ -142,7 +190,7 @@ void flatten(LinearBearing& bearing) {
   for (const Eigen::Index k : {2, 3, 4}) {
     bearing.stiffness.row(k).setZero();
     bearing.stiffness.col(k).setZero();
-    bearing.preload[k] = 0;
+    bearing.preload[k] = bearing.standing[k] = 0;
     bearing.rigid.at(static_cast<std::size_t>(k)) = false;
   }
 }
@@ -174,22 +222,19 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
   space.sun_face.middle = stage.sun_face.middle;
   space.ring_face.middle = stage.ring_face.middle;
   space.tilt_inertia = inertia;
-  const bool in_space = !turning.reasons_for_space().empty();
+  const bool in_space = !stage.reasons_for_space().empty();
   std::vector<std::vector<LinearBearing>> of_planets(static_cast<std::size_t>(stage.planets()));
   for (std::size_t i = 0; i < made.bearings.size(); ++i) {
     const auto& bearing = made.bearings[i];
     if (bearing.body.kind == Kind::pin) continue;
     const bool given = i < turning.bearings.size();
     const bool on_housing = bearing.on.kind == Kind::housing && turns;
-    auto found = on_housing && stands ? linear(made_under_all.bearings[i], under_all) : linear(bearing, at);
+    auto found = on_housing && stands ? under_standing_loads(linear(made_under_all.bearings[i], under_all))
+                                      : linear(bearing, at).bearing;
     if (!given) found.name = bearing.body.kind == Kind::planet ? "bearing" : "support";
-    if (on_housing && stands) {
-      found.preload.head<2>().setZero();
-      found.preload.tail<2>().setZero();
-    }
     const bool directed = given && bearing.frame == StageFrame::housing &&
                           (turning.bearings[i].matrix || turning.bearings[i].x != turning.bearings[i].y);
-    if (on_housing && (stands || directed)) found.stiffness = mean_over_turn(found.stiffness);
+    if (on_housing && directed) found.stiffness = mean_over_turn(found.stiffness);
     if (!in_space) flatten(found);
     const bool seated = stage.pin && bearing.body.kind == Kind::planet && bearing.on.kind == Kind::carrier;
     if (seated)
@@ -206,12 +251,7 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
     for (const auto kind : {Kind::sun, Kind::ring, Kind::carrier}) space.bearings.push_back(plane_guide({kind}));
     for (int n = 0; n < stage.planets(); ++n) space.bearings.push_back(plane_guide({Kind::planet, n}));
   }
-  for (const auto& load : turning.loads) space.loads.push_back(about_middle(stage, load));
-  const Eigen::Vector3d gravity = frame_axes(stage, StageFrame::housing, {}, 0) * turning.gravity;
-  for (const auto& weight : turning.weights)
-    space.loads.push_back(
-        about_middle(stage, {"weight", weight.body, StageFrame::carrier, weight.place * Eigen::Vector3d::UnitZ(),
-                             weight.mass * gravity, Eigen::Vector3d::Zero()}));
+  for (const auto& load : all_loads(stage)) add_load(stage, load, space);
   return space;
 }
 

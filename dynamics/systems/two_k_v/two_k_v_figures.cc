@@ -65,6 +65,7 @@ void declare_statics(std::vector<FigureSpec>& list) {
 
 void declare_motion(std::vector<FigureSpec>& list) {
   list.push_back(steady_figure());
+  list.push_back(motions_figure());
   auto error = angle("output_error_peak_to_peak_rad", "Error of the output",
                      "peak-to-peak value over the window of θ_output - θ_input / ratio");
   error.axis = "peak to peak, arc seconds";
@@ -144,6 +145,7 @@ FigureSet figures(const TwoKVStage& stage, const TwoKVResponse& r) {
   const bool still = constant_stiffness(stage) && r.steady && !output_moves(range.value, static_range, r.dynamic.mean);
   FigureSet set;
   set.set("steady", r.steady ? 1 : 0);
+  set.set(motions_key, number_of(r.motions));
   set.set("output_error_peak_to_peak_rad", still ? Figure{} : range);
   set.set("output_error_quasi_static_rad", still ? Figure{} : r.quasi_static.peak_to_peak);
   const std::vector<BranchResult>* kinds[] = {&r.sun_planet, &r.arc_pins};

@@ -81,9 +81,9 @@ std::optional<double> torque_balance(const TwoKVStage& stage, const LumpedSystem
 }
 
 /// Puts the start on the periodic orbit where shooting finds it.
-std::optional<double> shoot_for_start(const TwoKVStage& stage, const LumpedSystem& system,
-                                      const SimulationOptions& options, SteadyProblem& problem) {
-  if (options.mesh_cycles || problem.period_in_cycles > options.max_window_cycles) return std::nullopt;
+std::optional<double> shoot_for_start(const TwoKVStage& stage, const LumpedSystem& system, const SteadyProblem& problem,
+                                      SimulationOptions& options) {
+  if (options.start || options.mesh_cycles || problem.period_in_cycles > options.max_window_cycles) return std::nullopt;
   if (options.integrator.method == Integrator::runge_kutta_4)
     check_fixed_step(system, problem.mesh_frequency, options.integrator.fixed_step);
   ShootingOptions shooting;
@@ -102,7 +102,7 @@ std::optional<double> shoot_for_start(const TwoKVStage& stage, const LumpedSyste
   const double multiplier = std::abs(found.multipliers[rigid_motion_exists ? 2 : 0]);
   // From an unstable orbit the motion departs sooner or later. Time integration from elsewhere finds its destination.
   constexpr double accuracy = 1e-3;  // of multipliers from differences; an undamped motion neither grows nor dies
-  if (found.converged && multiplier <= 1 + accuracy) problem.start = found.start;
+  if (found.converged && multiplier <= 1 + accuracy) options.start = found.start;
   return multiplier;
 }
 
@@ -116,7 +116,8 @@ int period_in_crank_turns(const TwoKVStage& stage) {
   return std::lcm(turns(stage.sun_mesh, stage.planet_teeth), turns(stage.arc_mesh, stage.arc_teeth));
 }
 
-TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options) {
+TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& given) {
+  auto options = given;
   stage.check();
   if (!(stage.output_speed > 0))
     throw InputError(
@@ -130,10 +131,10 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options
                     stage.output_torque));
   const LumpedSystem system = assemble(stage);
   const double arc_force = stage.mean_arc_mesh_force();
-  SteadyProblem problem{stage.sun_mesh_frequency(), period_in_crank_turns(stage) * stage.planet_teeth, arc_force,
-                        mean_stiffness(stage.arc_mesh), std::nullopt};
+  const SteadyProblem problem{stage.sun_mesh_frequency(), period_in_crank_turns(stage) * stage.planet_teeth, arc_force,
+                              mean_stiffness(stage.arc_mesh)};
   TwoKVResponse response;
-  response.largest_multiplier = shoot_for_start(stage, system, options, problem);
+  response.largest_multiplier = shoot_for_start(stage, system, problem, options);
   auto steady = steady_response(system, problem, options);
   static_cast<SteadyOutcome&>(response) = static_cast<const SteadyOutcome&>(steady);
   response.crank_frequency = stage.crank_frequency();

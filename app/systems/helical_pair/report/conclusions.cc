@@ -206,8 +206,9 @@ Blocks pair_verdict(const PairRunResult& result) {
                                               : "",
         measured_in_unit(f.acceleration.tooth, shown_units::acceleration),
         measured_in_unit(te.peak_to_peak, shown_units::length), text_in_unit(te.mean, shown_units::length),
-        f.contact_loss > 0 ? fmt::format(" The teeth lose contact for {:.2g} % of the time.", 100 * f.contact_loss)
-                           : std::string(" The teeth never lose contact.")));
+        f.contact_loss.value > 0
+            ? fmt::format(" The teeth lose contact for {:.2g} % of the time.", 100 * f.contact_loss.value)
+            : std::string(" The teeth never lose contact.")));
     if (!f.steady)
       blocks += paragraph("No periodic steady state was reached; the results hold for the evaluated window only.");
   }

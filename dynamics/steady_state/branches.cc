@@ -1,0 +1,417 @@
+#include "dynamics/steady_state/branches.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/not_known.h"
+#include "dynamics/steady_state/floquet.h"
+#include "dynamics/steady_state/harmonic_balance.h"
+#include "dynamics/steady_state/newton_krylov.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// The harmonic balance at one value of the input.
+struct BalanceAt {
+  LumpedCase lumped;
+  double period;
+  FrequencyResponse linear;
+  BalanceProblem problem;
+  HarmonicBalance balance;
+
+  BalanceAt(LumpedCase of, const BranchOptions& options, const Eigen::VectorXd& stiffness)
+      : lumped(std::move(of)),
+        period(options.period_multiple * lumped.problem.period_in_cycles / lumped.problem.mesh_frequency),
+        linear(lumped.system, stiffness),
+        problem(balance_problem(lumped.system, linear, stiffness, period, samples_of(options, lumped.problem))),
+        balance(problem, period, samples_of(options, lumped.problem)) {}
+  static Eigen::Index samples_of(const BranchOptions& options, const SteadyProblem& problem) {
+    return static_cast<Eigen::Index>(options.samples_per_cycle) * options.period_multiple * problem.period_in_cycles;
+  }
+};
+
+/// A point of the branch: approaches over a period (in units of a length) and the input (of the range).
+struct Point {
+  Eigen::VectorXd u;  ///< samples x meshes, then the input
+  [[nodiscard]] double input() const { return u[u.size() - 1]; }
+};
+
+class Tracer {
+ public:
+  Tracer(const LumpedFamily& family, const BranchOptions& options) : family_(family), options_(options) {
+    if (!(options.from != options.to) || !std::isfinite(options.from) || !std::isfinite(options.to))
+      throw InputError(
+          fmt::format("a branch needs two different ends of its input, not {} and {}", options.from, options.to));
+    if (options.samples_per_cycle < 8 || options.samples_per_cycle % 8 != 0 || options.period_multiple < 1)
+      throw InputError(
+          fmt::format("a branch needs a multiple of 8 samples per mesh cycle and a whole number of "
+                      "periods, not {} and {}",
+                      options.samples_per_cycle, options.period_multiple));
+    const auto first = family(options.from);
+    meshes_ = static_cast<Eigen::Index>(first.system.meshes().size());
+    names_ = first.system.names();
+    cycles_ = first.problem.period_in_cycles;
+    if (first.system.has_moving_vectors())
+      throw InputError("mesh vectors that move with the mesh (elastic modes of the ring) have no branches");
+    stiffness_ = mean_mesh_stiffness(first.system);
+    range_ = options.to - options.from;
+    length_ = first.problem.force_scale / first.problem.stiffness;
+  }
+
+  Branch trace() {
+    Branch branch;
+    Point last = first_point();
+    add(branch, last);
+    // The first step changes the input alone, towards the end of the range.
+    Eigen::VectorXd direction = Eigen::VectorXd::Unit(last.u.size(), last.u.size() - 1);
+    double step = options_.max_step / 4;
+    while (static_cast<int>(branch.points.size()) < options_.max_points) {
+      auto next = advanced(last, direction, step);
+      if (!next) {
+        branch.end = fmt::format("no motion follows the one at {:g}: {}", value(last), trouble_);
+        return branch;
+      }
+      direction = normalised(next->u - last.u);
+      previous_ = last;
+      last = *next;
+      add(branch, last);
+      look_for_events(branch);
+      if (last.input() > 1 || last.input() < 0) return branch;
+    }
+    branch.end = fmt::format("{} points", options_.max_points);
+    return branch;
+  }
+
+ private:
+  static Eigen::VectorXd mean_mesh_stiffness(const LumpedSystem& system) {
+    Eigen::VectorXd mean(static_cast<Eigen::Index>(system.meshes().size()));
+    for (Eigen::Index m = 0; m < mean.size(); ++m)
+      mean[m] = mean_stiffness(system.meshes()[static_cast<std::size_t>(m)].excitation);
+    return mean;
+  }
+
+  [[nodiscard]] double value(const Point& point) const { return options_.from + range_ * point.input(); }
+
+  /// The last three are cached: the residual, its derivative with the input, and the present point.
+  BalanceAt& at(double input) {
+    const auto known = std::find_if(cached_.begin(), cached_.end(), [&](const auto& c) { return c.first == input; });
+    if (known != cached_.end()) return *known->second;
+    auto lumped = family_(options_.from + range_ * input);
+    if (lumped.system.names() != names_ || static_cast<Eigen::Index>(lumped.system.meshes().size()) != meshes_ ||
+        lumped.problem.period_in_cycles != cycles_)
+      throw InputError(
+          fmt::format("a branch needs the same degrees of freedom, meshes and period at all values; at "
+                      "{:g} there are {} degrees of freedom, {} meshes and {} mesh cycles",
+                      options_.from + range_ * input, lumped.system.dofs(), lumped.system.meshes().size(),
+                      lumped.problem.period_in_cycles));
+    if (cached_.size() == 3) cached_.erase(cached_.begin());
+    cached_.emplace_back(input, std::make_unique<BalanceAt>(std::move(lumped), options_, stiffness_));
+    return *cached_.back().second;
+  }
+
+  /// Residual of the harmonic balance, in units of the length.
+  void residual(const Eigen::VectorXd& u, Eigen::Ref<Eigen::VectorXd> result) {
+    auto& balance = at(u[u.size() - 1]).balance;
+    const Eigen::Index samples = balance.samples();
+    const Eigen::MatrixXd approach = length_ * u.head(samples * meshes_).reshaped(samples, meshes_);
+    Eigen::MatrixXd r(samples, meshes_);
+    balance.residual(approach, r);
+    result = r.reshaped() / length_;
+  }
+
+  Point first_point() {
+    const auto& first = at(0);
+    const Eigen::Index size = first.balance.samples() * meshes_;
+    Eigen::VectorXd z(size);
+    if (options_.start.size() > 0) {
+      require(options_.start.size() == size, fmt::format("{} approaches for {} unknowns", options_.start.size(), size));
+      z = options_.start.reshaped() / length_;
+    } else {
+      PeriodicOptions periodic;
+      periodic.samples_per_cycle = options_.samples_per_cycle;
+      const auto found =
+          periodic_response(first.lumped.system, first.period, cycles_ * options_.period_multiple, periodic);
+      if (!found.converged) throw SolverError(fmt::format("no motion at {:g}: {}", options_.from, found.trouble));
+      z = (first.linear.mesh_vectors().transpose() * found.displacement).transpose().reshaped() / length_;
+    }
+    const Equations equations{[&](const Eigen::VectorXd& u, Eigen::VectorXd& r) {
+                                Eigen::VectorXd extended(size + 1);
+                                extended << u, 0;
+                                r.resize(size);
+                                residual(extended, r);
+                              },
+                              [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) { apply(0, v, product); }};
+    const auto solved = solve_newton_krylov(equations, z, newton());
+    if (!solved.converged) throw SolverError(fmt::format("no motion at {:g}: {}", options_.from, solved.trouble));
+    Point point{Eigen::VectorXd(size + 1)};
+    point.u << solved.u, 0;
+    return point;
+  }
+
+  static NewtonKrylovOptions newton() { return {.tolerance = 1e-7, .weight = 1, .max_iterations = 12}; }
+
+  /// Derivative with the approaches at the last residual.
+  void apply(double input, const Eigen::VectorXd& v, Eigen::VectorXd& product) {
+    auto& balance = at(input).balance;
+    const Eigen::Index samples = balance.samples();
+    const Eigen::MatrixXd change = v.head(samples * meshes_).reshaped(samples, meshes_);
+    Eigen::MatrixXd r(samples, meshes_);
+    balance.apply_derivative(change, r);
+    product = r.reshaped();
+  }
+
+  /// Weights of the arc: motions count by their root mean square over five static deflections.
+  [[nodiscard]] Eigen::VectorXd weighted(const Eigen::VectorXd& u) const {
+    constexpr double deflections = 5;
+    Eigen::VectorXd w = u;
+    w.head(u.size() - 1) /= deflections * std::sqrt(static_cast<double>(u.size() - 1) / static_cast<double>(meshes_));
+    return w;
+  }
+  [[nodiscard]] double length_of(const Eigen::VectorXd& u) const { return weighted(u).norm(); }
+  [[nodiscard]] Eigen::VectorXd normalised(const Eigen::VectorXd& u) const { return u / length_of(u); }
+
+  /// The point at this distance along the branch.
+  std::optional<Point> corrected(const Point& from, const Eigen::VectorXd& direction, double step) {
+    const Eigen::VectorXd predicted = from.u + step * direction;
+    const Eigen::VectorXd normal = weighted(weighted(direction));
+    const Eigen::Index size = predicted.size() - 1;
+    Eigen::VectorXd with_input(size);
+    const Equations equations{[&](const Eigen::VectorXd& u, Eigen::VectorXd& r) {
+                                constexpr double change = 1e-6;
+                                r.resize(size + 1);
+                                Eigen::VectorXd there = u;
+                                there[size] += change;
+                                residual(there, with_input);
+                                residual(u, r.head(size));
+                                with_input = (with_input - r.head(size)) / change;
+                                r[size] = normal.dot(u - predicted);
+                              },
+                              [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) {
+                                Eigen::VectorXd part;
+                                apply(at_, v, part);
+                                product.resize(size + 1);
+                                product.head(size) = part + v[size] * with_input;
+                                product[size] = normal.dot(v);
+                              }};
+    auto tracked = equations;
+    tracked.residual = [&](const Eigen::VectorXd& u, Eigen::VectorXd& r) {
+      at_ = u[size];
+      equations.residual(u, r);
+    };
+    try {
+      const auto solved = solve_newton_krylov(tracked, predicted, newton());
+      iterations_ = solved.newton_iterations;
+      trouble_ = solved.trouble;
+      // A far jump lands on another branch.
+      if (!solved.converged || length_of(solved.u - predicted) > step) return std::nullopt;
+      return Point{solved.u};
+    } catch (const Error& error) {
+      trouble_ = error.what();
+      return std::nullopt;
+    }
+  }
+
+  /// The next point, with steps that Newton's method can take; `step` is adapted for the one after.
+  std::optional<Point> advanced(const Point& from, const Eigen::VectorXd& direction, double& step) {
+    constexpr double shortest = 1e-6;
+    for (; step >= shortest; step /= 2) {
+      const auto next = corrected(from, direction, step);
+      if (!next) continue;
+      // Around a bend the steps are short enough for parabolas.
+      constexpr double bend = 0.9;
+      const Eigen::VectorXd turned = normalised(next->u - from.u);
+      const double cosine = weighted(turned).dot(weighted(direction));
+      if (cosine < bend && step > options_.max_step / 64) continue;
+      const double taken = step;
+      if (iterations_ <= 4 && cosine > 0.98) step = std::min(2 * taken, options_.max_step);
+      return next;
+    }
+    return std::nullopt;
+  }
+
+  /// Largest force, loss of contact and stability of a point.
+  void add(Branch& branch, const Point& point) {
+    auto& here = at(point.input());
+    const Eigen::Index samples = here.balance.samples();
+    const Eigen::MatrixXd approach = length_ * point.u.head(samples * meshes_).reshaped(samples, meshes_);
+    Eigen::MatrixXd rest(samples, meshes_), force;
+    here.balance.residual(approach, rest);
+    multipliers_.push_back(floquet_multipliers(here.lumped.system, stiffness_, here.balance.meshes(), here.period));
+    std::vector<LumpedSystem::Contact> contact;
+    here.balance.meshes().evaluate_at_instants(approach, here.balance.rate_of(approach), force, contact);
+    BranchPoint result{.input = value(point)};
+    for (Eigen::Index m = 0; m < meshes_; ++m) {
+      if (!here.lumped.system.is_whole_mesh(static_cast<int>(m))) continue;
+      result.largest_force = std::max(result.largest_force, force.col(m).cwiseAbs().maxCoeff());
+      const auto begin = contact.begin() + m * samples;
+      result.contact_loss = std::max(
+          result.contact_loss, static_cast<double>(std::count(begin, begin + samples, LumpedSystem::Contact::open)) /
+                                   static_cast<double>(samples));
+    }
+    const auto& all = multipliers_.back();
+    result.multiplier = all.size() > 0 ? std::abs(all[0]) : 0;
+    constexpr double rounding = 1e-6;
+    result.stable = result.multiplier <= 1 + rounding;
+    branch.points.push_back(result);
+    inputs_.push_back(point.input());
+    arcs_.push_back(arcs_.empty() ? 0 : arcs_.back() + length_of(point.u - previous_.u));
+  }
+
+  /// Multipliers outside the unit circle: real above 1, real below -1, complex.
+  static std::array<int, 3> outside(const Eigen::VectorXcd& multipliers) {
+    std::array<int, 3> count{};
+    constexpr double real = 1e-6, edge = 1e-6;
+    for (const auto& m : multipliers) {
+      if (std::abs(m) <= 1 + edge) continue;
+      if (std::abs(m.imag()) > real * std::abs(m))
+        ++count[2];
+      else
+        ++count[m.real() > 0 ? 0 : 1];
+    }
+    return count;
+  }
+
+  /// Where the modulus of a multiplier passes 1, linearly between two points: largest of its kind.
+  static double passing(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
+    const double x = std::abs(a[0]) - 1, y = std::abs(b[0]) - 1;
+    return x == y ? 0.5 : std::clamp(x / (x - y), 0.0, 1.0);
+  }
+
+  void look_for_events(Branch& branch) {
+    const std::size_t n = inputs_.size();
+    bool turned = false;
+    if (n >= 3) {
+      const double a = inputs_[n - 2] - inputs_[n - 3], b = inputs_[n - 1] - inputs_[n - 2];
+      turned = a * b < 0;
+      if (turned) branch.events.push_back(fold(n - 2));
+    }
+    if (n < 2) return;
+    const auto before = outside(multipliers_[n - 2]), now = outside(multipliers_[n - 1]);
+    const double share = passing(multipliers_[n - 2], multipliers_[n - 1]);
+    const double input = options_.from + range_ * (inputs_[n - 2] + share * (inputs_[n - 1] - inputs_[n - 2]));
+    const double error = std::abs(range_ * (inputs_[n - 1] - inputs_[n - 2])) / 2;
+    const auto add_event = [&](BranchEvent::Kind kind) { branch.events.push_back({kind, input, error, n - 2}); };
+    if (before[1] != now[1]) add_event(BranchEvent::Kind::period_doubling);
+    if (before[2] / 2 != now[2] / 2 && before[0] + before[1] == now[0] + now[1])
+      add_event(BranchEvent::Kind::neimark_sacker);
+    // A fold changes the same multiplier one step earlier or later.
+    if (before[0] != now[0]) unexplained_ = n - 1;
+    if (unexplained_ != 0 && n - 1 >= unexplained_ + 2) {
+      const bool folded = std::any_of(branch.events.begin(), branch.events.end(), [&](const BranchEvent& e) {
+        return e.kind == BranchEvent::Kind::fold && e.before + 3 >= unexplained_ && e.before <= unexplained_ + 2;
+      });
+      if (!folded)
+        branch.events.push_back({BranchEvent::Kind::branching, options_.from + range_ * inputs_[unexplained_],
+                                 std::abs(range_ * (inputs_[unexplained_] - inputs_[unexplained_ - 1])),
+                                 unexplained_ - 1});
+      unexplained_ = 0;
+    }
+  }
+
+  /// The turning point near point i by the parabola through it and its neighbours over the arc.
+  [[nodiscard]] BranchEvent fold(std::size_t i) const {
+    const double s0 = arcs_[i - 1], s1 = arcs_[i], s2 = arcs_[i + 1];
+    const double p0 = inputs_[i - 1], p1 = inputs_[i], p2 = inputs_[i + 1];
+    const double d01 = (p1 - p0) / (s1 - s0), d12 = (p2 - p1) / (s2 - s1), curvature = (d12 - d01) / (s2 - s0);
+    const double s = curvature == 0 ? s1 : (s0 + s1) / 2 - d01 / (2 * curvature);
+    const double at = p0 + (s - s0) * (d01 + curvature * (s - s1));
+    return {BranchEvent::Kind::fold, options_.from + range_ * at, std::abs(range_ * (at - p1)), s < s1 ? i - 1 : i};
+  }
+
+  const LumpedFamily& family_;
+  const BranchOptions& options_;
+  Eigen::Index meshes_ = 0;
+  int cycles_ = 0;
+  std::vector<std::string> names_;
+  Eigen::VectorXd stiffness_;
+  double range_ = 0, length_ = 0;
+  std::vector<std::pair<double, std::unique_ptr<BalanceAt>>> cached_;
+  double at_ = 0;  // input of the last residual
+  int iterations_ = 0;
+  std::string trouble_;
+  Point previous_;
+  std::vector<double> inputs_, arcs_;
+  std::vector<Eigen::VectorXcd> multipliers_;
+  std::size_t unexplained_ = 0;  // point before which a multiplier passed +1, without a fold so far
+};
+
+}  // namespace
+
+const char* to_string(BranchEvent::Kind kind) {
+  switch (kind) {
+    case BranchEvent::Kind::fold:
+      return "fold";
+    case BranchEvent::Kind::period_doubling:
+      return "period doubling";
+    case BranchEvent::Kind::neimark_sacker:
+      return "Neimark-Sacker";
+    case BranchEvent::Kind::branching:
+      break;
+  }
+  return "branching";
+}
+
+namespace {
+
+/// Adds to the error of every fold its distance from that with half the samples.
+void compare_folds(const LumpedFamily& family, const BranchOptions& options, Branch& branch) {
+  if (std::none_of(branch.events.begin(), branch.events.end(),
+                   [](const BranchEvent& e) { return e.kind == BranchEvent::Kind::fold; }))
+    return;
+  auto coarser = options;
+  coarser.samples_per_cycle = std::max(8, options.samples_per_cycle / 2);
+  std::vector<double> folds;
+  for (const auto& event : trace_branch(family, coarser).events)
+    if (event.kind == BranchEvent::Kind::fold) folds.push_back(event.input);
+  std::size_t number = 0;
+  for (auto& event : branch.events)
+    if (event.kind == BranchEvent::Kind::fold) {
+      event.error += number < folds.size() ? std::abs(folds[number] - event.input) : not_known;
+      ++number;
+    }
+}
+
+/// Does a branch leave the range where another one begins?
+bool ends_at(const Branch& branch, const Branch& other, const BranchOptions& options) {
+  constexpr double same = 0.02;
+  const auto &last = branch.points.back(), &first = other.points.front();
+  return branch.end.empty() && std::abs(last.input - options.to) < std::abs(last.input - options.from) &&
+         std::abs(last.largest_force - first.largest_force) <= same * first.largest_force;
+}
+
+}  // namespace
+
+std::vector<Branch> branches_between(const LumpedFamily& family, const BranchOptions& options) {
+  std::vector<Branch> list;
+  std::string trouble;
+  auto back = options;
+  std::swap(back.from, back.to);
+  for (const auto& way : {options, back}) {
+    try {
+      auto branch = trace_branch(family, way);
+      if (!list.empty() && ends_at(list.front(), branch, options)) break;
+      compare_folds(family, way, branch);
+      list.push_back(std::move(branch));
+    } catch (const SolverError& error) {
+      trouble = error.what();
+    }
+  }
+  if (list.empty()) throw SolverError(trouble);
+  return list;
+}
+
+Branch trace_branch(const LumpedFamily& family, const BranchOptions& options) {
+  return Tracer(family, options).trace();
+}
+
+}  // namespace annulus::dynamics

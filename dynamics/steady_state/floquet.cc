@@ -1,0 +1,76 @@
+#include "dynamics/steady_state/floquet.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "dynamics/modes/dense_spectrum.h"
+#include "dynamics/modes/modes.h"
+
+namespace annulus::dynamics {
+
+Eigen::VectorXcd floquet_multipliers(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness,
+                                     const SampledMeshes& meshes, double period) {
+  const Eigen::Index n = system.dofs(), count = mesh_stiffness.size(), samples = meshes.samples();
+  const Eigen::MatrixXd b = system.mesh_vectors();
+  const Eigen::MatrixXd stiffness =
+      system.stiffness() + system.rotating_stiffness() + b * mesh_stiffness.asDiagonal() * b.transpose();
+  const Eigen::MatrixXd damping = system.damping_with_meshes() + system.gyroscopic();
+  const Modes found = modes(system, mesh_stiffness);
+  const Eigen::MatrixXd shapes = found.shapes();
+  // Rigid displacements act on nothing, and rigid velocities only where something damps or turns them.
+  const Eigen::Index free = neutral_motions(found, stiffness, system.mass());
+  Eigen::Index loose = 0;
+  while (loose < free && costs_no_force(shapes.col(loose), damping, system.mass())) ++loose;
+  const Eigen::Index elastic = n - free, moving = n - loose;
+  const auto bent = shapes.rightCols(elastic);
+  const auto swift = shapes.rightCols(moving);
+  const double w = std::max(2 * std::numbers::pi * found.modes.back().frequency, 1 / period);
+  // Elastic displacements and velocities / w: entries of like size.
+  const Eigen::Index size = elastic + moving;
+  Eigen::MatrixXd state = Eigen::MatrixXd::Zero(size, size);
+  state.topRightCorner(elastic, elastic).setIdentity();
+  state.bottomLeftCorner(moving, elastic) = -swift.transpose() * stiffness * bent / (w * w);
+  state.bottomRightCorner(moving, moving) = -swift.transpose() * damping * swift / w;
+  const double step = period / static_cast<double>(samples);
+  const Eigen::MatrixXd drift = exponential(state * (w * step));
+  // Changes of the mesh forces with approaches and rates, beyond those of the constant stiffness and damping.
+  std::vector<Eigen::MatrixXd> tangent(static_cast<std::size_t>(samples), Eigen::MatrixXd(count, count));
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(samples, count), force(samples, count);
+  for (Eigen::Index m = 0; m < count; ++m) {
+    unit.col(m).setOnes();
+    meshes.apply_tangent(unit, mesh_stiffness, force);
+    for (Eigen::Index i = 0; i < samples; ++i) tangent[static_cast<std::size_t>(i)].col(m) = force.row(i);
+    unit.col(m).setZero();
+  }
+  const Eigen::MatrixXd of_displacement = b.transpose() * bent, of_velocity = b.transpose() * swift;
+  const Eigen::MatrixXd gain = of_velocity * of_velocity.transpose();
+  Eigen::MatrixXd map = Eigen::MatrixXd::Identity(size, size);
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    auto velocity = map.bottomRows(moving);
+    const Eigen::MatrixXd kick = (step / w) * of_velocity.transpose() *
+                                 (tangent[static_cast<std::size_t>(i)] * (of_displacement * map.topRows(elastic)));
+    Eigen::VectorXd damper(count);
+    for (Eigen::Index m = 0; m < count; ++m)
+      damper[m] = meshes.damping()(i, m) - system.meshes()[static_cast<std::size_t>(m)].damping;
+    if (damper.any()) {
+      // The rate in the middle of the impulse.
+      const Eigen::MatrixXd resisted =
+          Eigen::MatrixXd::Identity(count, count) + (step / 2) * gain * damper.asDiagonal();
+      const Eigen::MatrixXd rate = resisted.partialPivLu().solve(of_velocity * (velocity - kick / 2));
+      velocity -= kick + step * of_velocity.transpose() * (damper.asDiagonal() * rate);
+    } else {
+      velocity -= kick;
+    }
+    map = drift * map;
+  }
+  const Eigen::VectorXcd all = eigenvalues(map, "the Floquet multipliers");
+  std::vector<std::complex<double>> sorted(all.begin(), all.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](auto x, auto y) { return std::abs(x) > std::abs(y); });
+  return Eigen::Map<Eigen::VectorXcd>(sorted.data(), static_cast<Eigen::Index>(sorted.size()));
+}
+
+}  // namespace annulus::dynamics
