@@ -14,7 +14,10 @@ std::string period_text(const dynamics::FoundMotion& motion) {
 
 Json to_json(const dynamics::FoundMotions& motions) {
   if (motions.starts == 0) return nullptr;
-  Json json = {{"starts", motions.starts}, {"undecided", motions.undecided}, {"found", Json::array()}};
+  Json json = {{"reach_of_backlash", json_number(motions.reach)},
+               {"starts", motions.starts},
+               {"undecided", motions.undecided},
+               {"found", Json::array()}};
   for (const auto& m : motions.list)
     json["found"].push_back({{"period", m.period},
                              {"irregular", m.period == 0},
@@ -36,25 +39,28 @@ std::vector<Warning> motion_warnings(const dynamics::FoundMotions& motions, doub
     std::vector<std::string> found;
     bool largest = false;
     for (const auto& m : motions.list) {
-      found.push_back(fmt::format("{:.4g} kN ({}, {} of {} starts)", m.largest_force / 1e3, period_text(m), m.starts,
+      found.push_back(fmt::format("{:.3g} kN ({}, {} of {} starts)", m.largest_force / 1e3, period_text(m), m.starts,
                                   motions.starts));
       largest = largest || (found.size() == 1 && m.taken);
     }
     return {
         {"several_motions", Severity::warning,
-         fmt::format("{} stable motions exist at this speed and load. Their largest mesh forces: {}. The results "
-                     "are those of {}; what happened before decides which one runs",
+         fmt::format("{} stable motions were found at this speed and load. Their largest mesh forces: {}. The "
+                     "results are those of {}. The history of the machine decides which one runs{}",
                      motions.list.size(), fmt::join(found, "; "),
-                     largest ? "the first one" : "one with less force: the first one is left by small disturbances"),
+                     largest ? "the first one" : "one with less force, because small disturbances end the first one",
+                     motions.undecided > 0 ? fmt::format(". {} starts were not decided", motions.undecided) : ""),
+
          variant}};
   }
   std::vector<Warning> list;
   if (motions.undecided > 0)
-    list.push_back({"motions_undecided", Severity::note,
-                    fmt::format("of {} initial conditions, {} still vibrated at the end of the search for other "
-                                "motions",
-                                motions.starts, motions.undecided),
-                    variant});
+    list.push_back(
+        {"motions_undecided", 2 * motions.undecided > motions.starts ? Severity::warning : Severity::note,
+         fmt::format("of {} initial conditions, {} still vibrated at the end of the search for other motions, "
+                     "or could not be integrated",
+                     motions.starts, motions.undecided),
+         variant});
   if (contact_loss > 0 && motions.starts == 0)
     list.push_back(
         {"other_steady_states", Severity::warning,

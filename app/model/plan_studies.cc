@@ -49,8 +49,12 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
   if (!any || !scene.dynamics) return list;
   const auto system = make_system(scene);
   const auto variants = static_cast<long>(system->variants().size());
-  const double whole = response_seconds(*system, &PlannedResponse::study_s),
-               sample = response_seconds(*system, &PlannedResponse::sample_s);
+  auto without_search = scene;
+  without_search.dynamics->starts = 0;
+  const auto alone = make_system(without_search);
+  const double searched = response_seconds(*system, &PlannedResponse::study_s),
+               whole = response_seconds(*alone, &PlannedResponse::study_s),
+               sample = response_seconds(*alone, &PlannedResponse::sample_s);
   const auto add = [&](std::string name, std::string what, std::size_t cases, double each, const OwnTables& tables) {
     const auto n = static_cast<long>(cases);
     list.push_back(
@@ -60,10 +64,18 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
                              std::size_t besides = 0) {
     OwnTables tables;
     for (const auto& study_case : cases) tables.add(scene, study_case);
-    add(std::move(name), std::move(what), cases.size() + besides, whole, tables);
+    const bool searches = !cases.empty() && cases.front().other_motions;
+    add(std::move(name), std::move(what), cases.size() + besides, searches ? searched : whole, tables);
+  };
+  // A branch has some hundred points.
+  constexpr std::size_t of_branches = 400;
+  const auto more_points = [](const SweepInput& sweep, std::size_t cases) {
+    return (sweep.goes_up() && sweep.goes_down() ? cases : 0) +
+           (sweep.direction == SweepDirection::branches ? of_branches : 0);
   };
   for (std::size_t i = 0; i < scene.sweeps.size(); ++i)
-    add_cases(fmt::format("[[sweep]] {}", i + 1), row_text(scene, scene.sweeps[i]), sweep_cases(scene, i));
+    add_cases(fmt::format("[[sweep]] {}", i + 1), row_text(scene, scene.sweeps[i]), sweep_cases(scene, i),
+              more_points(scene.sweeps[i], scene.sweeps[i].points().size()));
   for (std::size_t i = 0; i < scene.grids.size(); ++i)
     add_cases(fmt::format("[[grid]] {}", i + 1),
               row_text(scene, scene.grids[i].x) + "; " + row_text(scene, scene.grids[i].y), grid_cases(scene, i));

@@ -160,8 +160,10 @@ std::string unit_of_input(const Scene& scene, const std::string& input) {
 }
 
 std::vector<StudyCase> sweep_cases(const Scene& scene, std::size_t sweep) {
-  return combinations({scene.sweeps.at(sweep)}, fmt::format("[[sweep]] {}", sweep + 1), "value",
-                      place_text(scene, "sweep.input", sweep));
+  auto cases = combinations({scene.sweeps.at(sweep)}, fmt::format("[[sweep]] {}", sweep + 1), "value",
+                            place_text(scene, "sweep.input", sweep));
+  for (auto& study_case : cases) study_case.other_motions = scene.sweeps.at(sweep).direction == SweepDirection::each;
+  return cases;
 }
 
 std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid) {

@@ -16,6 +16,9 @@ struct StudyCase {
   std::string where{};   ///< for messages: "[[sweep]] 1, value 7 of 20 (stage.power_kW = 900)"
   std::string folder{};  ///< of tables of its own, below OUT
   std::string place{};   ///< of the study's input in the scene: "scene.toml:40:1"; empty: not known
+  /// Whether other motions are looked for (dynamics.starts): sweeps do, values by themselves; studies of thousands of
+  /// points do not.
+  bool other_motions = false;
 };
 
 /// The unit of a key path.

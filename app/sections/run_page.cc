@@ -209,7 +209,11 @@ Blocks solution_checks(const std::vector<NamedOutcome>& responses) {
       motions.rows.push_back({name, period_text(m), fmt::format("{:.4g}", m.largest_force / 1e3),
                               fmt::format("{:.2g}", 100 * m.contact_loss),
                               fmt::format("{:.0f}", 100.0 * m.starts / found->motions.starts), m.taken ? "shown" : ""});
-  if (!motions.rows.empty()) blocks += motions;
+  if (!motions.rows.empty())
+    blocks += paragraph(
+                  "Stable motions that were found from random initial conditions, because backlash is within reach "
+                  "of the vibration. The results are those of one of them.") +
+              motions;
   return blocks;
 }
 

@@ -147,9 +147,19 @@ std::string dashed_caption(const std::vector<FigureSpec>& figures) {
   return titles.empty() ? titles : titles + ".";
 }
 
+/// The lines of a picture: a variant each, and each again where the values are also followed down.
+std::vector<std::string> line_names(const StudyResults& studies, const SweepResult& sweep) {
+  if (sweep.downwards.empty()) return studies.variants;
+  std::vector<std::string> names;
+  for (const char* direction : {"up", "down"})
+    for (const auto& variant : studies.variants) names.push_back((variant.empty() ? "" : variant + ", ") + direction);
+  return names;
+}
+
 /// Where the stability of the branches changes.
 Blocks branch_table(const StudyResults& studies, const SweepResult& sweep) {
-  PageTable table{.head = {"ring", "branch", "event", with_unit(sweep.sweep.input, sweep.unit), "error"}};
+  PageTable table{
+      .head = {"ring", "branch", "event", with_unit(sweep.sweep.input, sweep.unit), with_unit("error", sweep.unit)}};
   Blocks blocks;
   for (std::size_t variant = 0; variant < sweep.branches.size(); ++variant) {
     const auto& found = sweep.branches[variant];
@@ -171,10 +181,11 @@ Blocks branch_table(const StudyResults& studies, const SweepResult& sweep) {
 Blocks one_sweep(const Scene& scene, const StudyResults& studies, std::size_t n) {
   const auto& sweep = studies.sweeps[n];
   StudyOutcome outcome;
-  for (std::size_t variant = 0; variant < studies.variants.size(); ++variant)
-    for (std::size_t i = 0; i < sweep.values.size(); ++i)
-      outcome.add(sweep.variants[variant][i],
-                  fmt::format("{} at {}", studies.variants[variant], to_text(sweep.values[i], 6)));
+  for (const auto* points : {&sweep.variants, &sweep.downwards})
+    for (std::size_t variant = 0; variant < points->size(); ++variant)
+      for (std::size_t i = 0; i < sweep.values.size(); ++i)
+        outcome.add((*points)[variant][i],
+                    fmt::format("{} at {}", studies.variants[variant], to_text(sweep.values[i], 6)));
   Blocks blocks =
       heading(sweep.sweep.input) +
       paragraph(
@@ -184,12 +195,12 @@ Blocks one_sweep(const Scene& scene, const StudyResults& studies, std::size_t n)
                  sweep.tables ? fmt::format(" {} of the values have their own stiffness tables.", sweep.tables) : ""));
   const SweepPictures draw(studies, sweep);
   blocks += Pictures{result_pictures(studies, [&](const FigureSpec& figure) { return draw.result(figure); }),
-                     legend_of(studies.variants), dashed_caption(studies.figures)};
+                     legend_of(line_names(studies, sweep)), dashed_caption(studies.figures)};
   if (const auto branches = draw.branches(); !branches.empty())
     blocks += Pictures{branches,
                        {},
-                       "Periodic motions that repeat with the excitation, followed through folds. Dashed: unstable; "
-                       "no machine stays there."};
+                       "Periodic motions that repeat with the excitation, followed through folds. Dashed: unstable, "
+                       "any disturbance ends them. Table: sweep_<n>_branches.csv."};
   blocks += branch_table(studies, sweep);
   if (const auto frequencies = draw.frequencies(); !frequencies.empty())
     blocks +=

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "app/model/dynamics_members.h"
 #include "app/model/run_options.h"
@@ -76,11 +77,15 @@ CasePoints run_in_order(const StudySubject& subject, const std::vector<StudyCase
   TaskProgress progress(label, cases.size() * variants);
   for_each_task(variants, subject.options().threads, [&](std::size_t variant) {
     std::optional<dynamics::SystemState> state;
-    std::string history = order == SweepOrder::rising ? "up" : "down";
+    // With the version of the method.
+    std::string history = order == SweepOrder::rising ? "up 1" : "down 1";
     for (const std::size_t i : in_order(cases, order)) {
       auto& point = result[variant][i];
       point.failure = failures[i];
-      if (failures[i].empty()) {
+      if (!failures[i].empty()) {
+        state.reset();
+        history = identity_of(history, std::string("from equilibrium"));
+      } else {
         const auto model = subject.model(cases[i], variant);
         history = identity_of(history, model->id());
         const auto json = cached_response(subject.options(), "followed_points", history, [&] {
@@ -97,10 +102,10 @@ CasePoints run_in_order(const StudySubject& subject, const std::vector<StudyCase
         state.reset();
         if (point.failure.empty()) state = state_of(json.at("end"));
       }
-      if (!point.failure.empty()) log::warn(fmt::format("{}: {}", cases[i].where, point.failure));
       progress.done();
     }
   });
+  warn_of_failures(subject, cases, points);
   progress.finish(fmt::format("{} responses", cases.size() * variants));
   return points;
 }
@@ -120,7 +125,8 @@ std::vector<SweepBranches> find_branches(const StudySubject& subject, std::size_
     constexpr int samples = 64;
     auto& found = result[variant];
     try {
-      const auto identity = identity_of(model_at(*low)->id(), model_at(*high)->id(), input.input, *low, *high, samples);
+      const auto identity = identity_of(std::string("branches 1"), model_at(*low)->id(), model_at(*high)->id(),
+                                        input.input, *low, *high, samples);
       const auto [branches, reused] = cached_value(subject.options().store.get(), "branches", identity, [&] {
         return dynamics::branches_between([&](double value) { return model_at(value)->lumped(); },
                                           {.from = *low, .to = *high, .samples_per_cycle = samples});
@@ -129,9 +135,12 @@ std::vector<SweepBranches> find_branches(const StudySubject& subject, std::size_
       count_reuse(subject.options(), study_responses, reused ? 1 : 0, reused ? 0 : 1);
     } catch (const Error& error) {
       found.failure = error.what();
-      log::warn(fmt::format("[[sweep]] {}, branches: {}", sweep + 1, found.failure));
     }
   });
+  for (std::size_t variant = 0; variant < variants; ++variant)
+    if (!result[variant].failure.empty())
+      log::warn(fmt::format("[[sweep]] {}, branches{}: {}", sweep + 1, ring_words(subject, variant),
+                            result[variant].failure));
   return result;
 }
 

@@ -61,10 +61,27 @@ StudyPoint attempted(const std::function<StudyPoint()>& respond) {
   }
 }
 
+std::string ring_words(const StudySubject& subject, std::size_t variant) {
+  const auto& name = subject.variants().at(variant);
+  return name.empty() ? "" : ", ring '" + name + "'";
+}
+
+std::size_t warn_of_failures(const StudySubject& subject, const std::vector<StudyCase>& cases,
+                             const CasePoints& points) {
+  std::size_t failed = 0;
+  for (std::size_t variant = 0; variant < points.variants.size(); ++variant)
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const auto& point = points.variants[variant][i];
+      if (point.failure.empty()) continue;
+      ++failed;
+      log::warn(fmt::format("{}{}: {}", cases[i].where, ring_words(subject, variant), point.failure));
+    }
+  return failed;
+}
+
 CasePoints run_cases(const StudySubject& subject, const std::vector<StudyCase>& cases, const std::string& label) {
-  const auto& names = subject.variants();
   const auto& figures = subject.figures();
-  const std::size_t variants = names.size(), n = cases.size();
+  const std::size_t variants = subject.variants().size(), n = cases.size();
   CasePoints result;
   result.variants.assign(variants, std::vector<StudyPoint>(n));
   std::vector<std::string> failures(n);
@@ -89,16 +106,7 @@ CasePoints run_cases(const StudySubject& subject, const std::vector<StudyCase>& 
     }
     progress.done();
   });
-  std::size_t failed = 0;
-  for (std::size_t variant = 0; variant < variants; ++variant) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto& point = result.variants[variant][i];
-      if (point.failure.empty()) continue;
-      ++failed;
-      log::warn(fmt::format("{}{}: {}", cases[i].where, names[variant].empty() ? "" : ", ring '" + names[variant] + "'",
-                            point.failure));
-    }
-  }
+  const std::size_t failed = warn_of_failures(subject, cases, result);
   progress.finish(fmt::format("{} responses{}", n * variants, failed ? fmt::format(", {} failed", failed) : ""));
   return result;
 }

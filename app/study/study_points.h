@@ -26,6 +26,11 @@ struct CasePoints {
 };
 [[nodiscard]] CasePoints run_cases(const StudySubject& subject, const std::vector<StudyCase>& cases,
                                    const std::string& label);
+/// ", ring 'pinned'"; empty for kinds without variants.
+[[nodiscard]] std::string ring_words(const StudySubject& subject, std::size_t variant);
+/// Logs the points that failed, and returns their number.
+std::size_t warn_of_failures(const StudySubject& subject, const std::vector<StudyCase>& cases,
+                             const CasePoints& points);
 
 /// A point and a design as JSON, and read back. The declarations are referred to by the point.
 [[nodiscard]] Json to_json(const StudyPoint& point, const std::vector<FigureSpec>& figures);

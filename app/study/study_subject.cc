@@ -67,7 +67,8 @@ bool StudySubject::prepare(const StudyCase& changed) const {
 
 std::unique_ptr<LumpedModel> StudySubject::model(const StudyCase& changed, std::size_t variant) const {
   try {
-    const auto scene_of_case = with_overrides(scene(), changed.overrides);
+    auto scene_of_case = with_overrides(scene(), changed.overrides);
+    if (!changed.other_motions && scene_of_case.dynamics) scene_of_case.dynamics->starts = 0;
     const auto system = make_system(scene_of_case);
     const auto meshes = system->model_meshes();
     const double force = system->mean_mesh_force();

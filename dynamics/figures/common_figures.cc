@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/not_known.h"
 
@@ -30,11 +31,12 @@ FigureSpec motions_figure() {
               "number of stable motions found from the initial conditions of dynamics.starts; results are "
               "those of the motion with the largest mesh force. 1 where backlash is out of reach",
           .term = "stable_motions",
-          .better = Better::smaller};
+          .better = Better::smaller,
+          .effort = FigureEffort::motion};
 }
 
 double number_of(const FoundMotions& motions) {
-  if (!motions.not_tried.empty()) return not_known;
+  if (!motions.not_tried.empty() || std::isnan(motions.reach)) return not_known;
   return std::max<double>(1, static_cast<double>(motions.list.size()));
 }
 

@@ -13,7 +13,7 @@ namespace annulus::dynamics {
 /// "steady": whether a periodic steady state was found.
 [[nodiscard]] FigureSpec steady_figure();
 /// The number of stable motions that were found; 1 where backlash is out of reach, not known where others were not
-/// looked for although it is within reach.
+/// looked for.
 inline constexpr const char* motions_key = "stable_motions";
 [[nodiscard]] FigureSpec motions_figure();
 [[nodiscard]] double number_of(const FoundMotions& motions);

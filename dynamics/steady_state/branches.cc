@@ -7,7 +7,6 @@
 #include <cmath>
 #include <complex>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -57,7 +56,7 @@ class Tracer {
           fmt::format("a branch needs a multiple of 8 samples per mesh cycle and a whole number of "
                       "periods, not {} and {}",
                       options.samples_per_cycle, options.period_multiple));
-    const auto first = family(options.from);
+    const auto first = family(options.from), last = family(options.to);
     meshes_ = static_cast<Eigen::Index>(first.system.meshes().size());
     names_ = first.system.names();
     cycles_ = first.problem.period_in_cycles;
@@ -65,30 +64,45 @@ class Tracer {
       throw InputError("mesh vectors that move with the mesh (elastic modes of the ring) have no branches");
     stiffness_ = mean_mesh_stiffness(first.system);
     range_ = options.to - options.from;
-    length_ = first.problem.force_scale / first.problem.stiffness;
+    for (const auto* lumped : {&first.problem, &last.problem})
+      length_ = std::max(length_, lumped->force_scale / lumped->stiffness);
+  }
+
+  /// The motion at the beginning of the range. Throws SolverError where there is none.
+  const Eigen::VectorXd& begin() {
+    if (last_.u.size() == 0) last_ = first_point();
+    return last_.u;
+  }
+  /// The motion at which the branch ended.
+  [[nodiscard]] const Eigen::VectorXd& end() const { return last_.u; }
+  /// How far two motions are apart, of five static deflections.
+  [[nodiscard]] double apart(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
+    return length_of((a - b).head(a.size() - 1).eval());
   }
 
   Branch trace() {
     Branch branch;
-    Point last = first_point();
-    add(branch, last);
+    (void)begin();
+    add(branch, last_);
     // The first step changes the input alone, towards the end of the range.
-    Eigen::VectorXd direction = Eigen::VectorXd::Unit(last.u.size(), last.u.size() - 1);
+    Eigen::VectorXd direction = Eigen::VectorXd::Unit(last_.u.size(), last_.u.size() - 1);
     double step = options_.max_step / 4;
     while (static_cast<int>(branch.points.size()) < options_.max_points) {
-      auto next = advanced(last, direction, step);
+      auto next = advanced(last_, direction, step);
       if (!next) {
-        branch.end = fmt::format("no motion follows the one at {:g}: {}", value(last), trouble_);
-        return branch;
+        branch.end = fmt::format("no motion follows the one at {:g} ({})", value(last_), trouble_);
+        break;
       }
-      direction = normalised(next->u - last.u);
-      previous_ = last;
-      last = *next;
-      add(branch, last);
+      direction = normalised(next->u - last_.u);
+      previous_ = last_;
+      last_ = *next;
+      add(branch, last_);
       look_for_events(branch);
-      if (last.input() > 1 || last.input() < 0) return branch;
+      if (last_.input() == 1 || last_.input() == 0) break;
     }
-    branch.end = fmt::format("{} points", options_.max_points);
+    if (static_cast<int>(branch.points.size()) == options_.max_points)
+      branch.end = fmt::format("it was followed to {:g} over {} points, the limit", value(last_), options_.max_points);
+    add_branchings(branch, inputs_.size() + close_by);
     return branch;
   }
 
@@ -144,17 +158,27 @@ class Tracer {
       if (!found.converged) throw SolverError(fmt::format("no motion at {:g}: {}", options_.from, found.trouble));
       z = (first.linear.mesh_vectors().transpose() * found.displacement).transpose().reshaped() / length_;
     }
+    const auto point = at_input(0, z);
+    if (!point) throw SolverError(fmt::format("no motion at {:g}: {}", options_.from, trouble_));
+    return *point;
+  }
+
+  /// The motion near these approaches at one input.
+  std::optional<Point> at_input(double input, const Eigen::VectorXd& z) {
+    const Eigen::Index size = z.size();
+    Eigen::VectorXd extended(size + 1);
     const Equations equations{[&](const Eigen::VectorXd& u, Eigen::VectorXd& r) {
-                                Eigen::VectorXd extended(size + 1);
-                                extended << u, 0;
+                                extended << u, input;
                                 r.resize(size);
                                 residual(extended, r);
                               },
-                              [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) { apply(0, v, product); }};
+                              [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) { apply(input, v, product); }};
     const auto solved = solve_newton_krylov(equations, z, newton());
-    if (!solved.converged) throw SolverError(fmt::format("no motion at {:g}: {}", options_.from, solved.trouble));
+    iterations_ = solved.newton_iterations;
+    trouble_ = solved.trouble;
+    if (!solved.converged) return std::nullopt;
     Point point{Eigen::VectorXd(size + 1)};
-    point.u << solved.u, 0;
+    point.u << solved.u, input;
     return point;
   }
 
@@ -182,13 +206,20 @@ class Tracer {
 
   /// The point at this distance along the branch.
   std::optional<Point> corrected(const Point& from, const Eigen::VectorXd& direction, double step) {
-    const Eigen::VectorXd predicted = from.u + step * direction;
+    Eigen::VectorXd predicted = from.u + step * direction;
+    if (const double input = predicted[predicted.size() - 1]; input >= 1 || input <= 0)
+      return at_end(from, direction, input >= 1 ? 1 : 0, step);
     const Eigen::VectorXd normal = weighted(weighted(direction));
     const Eigen::Index size = predicted.size() - 1;
     Eigen::VectorXd with_input(size);
     const Equations equations{[&](const Eigen::VectorXd& u, Eigen::VectorXd& r) {
-                                constexpr double change = 1e-6;
                                 r.resize(size + 1);
+                                if (u[size] < 0 || u[size] > 1) {
+                                  // Beyond the range the system may not exist: a shorter step is taken.
+                                  r.setConstant(not_known);
+                                  return;
+                                }
+                                const double change = u[size] < 0.5 ? 1e-6 : -1e-6;
                                 Eigen::VectorXd there = u;
                                 there[size] += change;
                                 residual(there, with_input);
@@ -215,7 +246,22 @@ class Tracer {
       // A far jump lands on another branch.
       if (!solved.converged || length_of(solved.u - predicted) > step) return std::nullopt;
       return Point{solved.u};
-    } catch (const Error& error) {
+    } catch (const SolverError& error) {
+      trouble_ = error.what();
+      return std::nullopt;
+    }
+  }
+
+  /// The point at an end of the range, where the direction reaches it within the step.
+  std::optional<Point> at_end(const Point& from, const Eigen::VectorXd& direction, double input, double step) {
+    const Eigen::Index size = direction.size() - 1;
+    const double share = (input - from.input()) / direction[size];
+    const Eigen::VectorXd predicted = from.u + share * direction;
+    try {
+      auto point = at_input(input, predicted.head(size));
+      if (!point || length_of(point->u - predicted) > step) return std::nullopt;
+      return point;
+    } catch (const SolverError& error) {
       trouble_ = error.what();
       return std::nullopt;
     }
@@ -281,40 +327,62 @@ class Tracer {
     return count;
   }
 
-  /// Where the modulus of a multiplier passes 1, linearly between two points: largest of its kind.
-  static double passing(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
-    const double x = std::abs(a[0]) - 1, y = std::abs(b[0]) - 1;
-    return x == y ? 0.5 : std::clamp(x / (x - y), 0.0, 1.0);
+  /// Of the multipliers of a kind the one that passes the unit circle first: real above zero, real below, complex.
+  static double extreme(const Eigen::VectorXcd& multipliers, int kind) {
+    double largest = 0;
+    constexpr double real = 1e-6;
+    for (const auto& m : multipliers) {
+      const bool complex = std::abs(m.imag()) > real * std::abs(m);
+      if (kind == 2 ? complex : !complex && (m.real() > 0) == (kind == 0)) largest = std::max(largest, std::abs(m));
+    }
+    return largest;
+  }
+
+  /// Where that passes, linearly between the last two points, with half the distance as error; all of it where the
+  /// multiplier on one side is not of this kind.
+  [[nodiscard]] std::pair<double, double> passing(int kind) const {
+    const std::size_t n = inputs_.size();
+    const double x = extreme(multipliers_[n - 2], kind) - 1, y = extreme(multipliers_[n - 1], kind) - 1;
+    const double distance = std::abs(range_ * (inputs_[n - 1] - inputs_[n - 2]));
+    const bool known = x * y < 0 && std::min(x, y) > -1;
+    const double share = known ? x / (x - y) : 0.5;
+    return {options_.from + range_ * (inputs_[n - 2] + share * (inputs_[n - 1] - inputs_[n - 2])),
+            known ? distance / 2 : distance};
   }
 
   void look_for_events(Branch& branch) {
     const std::size_t n = inputs_.size();
-    bool turned = false;
     if (n >= 3) {
       const double a = inputs_[n - 2] - inputs_[n - 3], b = inputs_[n - 1] - inputs_[n - 2];
-      turned = a * b < 0;
-      if (turned) branch.events.push_back(fold(n - 2));
+      if (a * b < 0) branch.events.push_back(fold(n - 2));
     }
     if (n < 2) return;
     const auto before = outside(multipliers_[n - 2]), now = outside(multipliers_[n - 1]);
-    const double share = passing(multipliers_[n - 2], multipliers_[n - 1]);
-    const double input = options_.from + range_ * (inputs_[n - 2] + share * (inputs_[n - 1] - inputs_[n - 2]));
-    const double error = std::abs(range_ * (inputs_[n - 1] - inputs_[n - 2])) / 2;
-    const auto add_event = [&](BranchEvent::Kind kind) { branch.events.push_back({kind, input, error, n - 2}); };
-    if (before[1] != now[1]) add_event(BranchEvent::Kind::period_doubling);
-    if (before[2] / 2 != now[2] / 2 && before[0] + before[1] == now[0] + now[1])
-      add_event(BranchEvent::Kind::neimark_sacker);
-    // A fold changes the same multiplier one step earlier or later.
-    if (before[0] != now[0]) unexplained_ = n - 1;
-    if (unexplained_ != 0 && n - 1 >= unexplained_ + 2) {
+    const auto all = [](const std::array<int, 3>& count) { return count[0] + count[1] + count[2]; };
+    // Multipliers outside the unit circle may meet and part: stability does not change then.
+    if (all(before) != all(now)) {
+      const auto add_event = [&](BranchEvent::Kind kind, int of) {
+        const auto [input, error] = passing(of);
+        branch.events.push_back({kind, input, error, n - 2});
+      };
+      if (before[1] != now[1]) add_event(BranchEvent::Kind::period_doubling, 1);
+      if (before[2] != now[2]) add_event(BranchEvent::Kind::neimark_sacker, 2);
+      if (before[0] != now[0]) unexplained_.push_back(n - 1);
+    }
+    add_branchings(branch, n);
+  }
+
+  /// A fold changes a multiplier of +1 a step earlier or later; what no fold explains by now is a branching.
+  void add_branchings(Branch& branch, std::size_t n) {
+    while (!unexplained_.empty() && n > unexplained_.front() + close_by) {
+      const std::size_t at = unexplained_.front();
+      unexplained_.erase(unexplained_.begin());
       const bool folded = std::any_of(branch.events.begin(), branch.events.end(), [&](const BranchEvent& e) {
-        return e.kind == BranchEvent::Kind::fold && e.before + 3 >= unexplained_ && e.before <= unexplained_ + 2;
+        return e.kind == BranchEvent::Kind::fold && e.before + close_by >= at && e.before <= at + close_by;
       });
       if (!folded)
-        branch.events.push_back({BranchEvent::Kind::branching, options_.from + range_ * inputs_[unexplained_],
-                                 std::abs(range_ * (inputs_[unexplained_] - inputs_[unexplained_ - 1])),
-                                 unexplained_ - 1});
-      unexplained_ = 0;
+        branch.events.push_back({BranchEvent::Kind::branching, options_.from + range_ * inputs_[at],
+                                 std::abs(range_ * (inputs_[at] - inputs_[at - 1])), at - 1});
     }
   }
 
@@ -339,10 +407,11 @@ class Tracer {
   double at_ = 0;  // input of the last residual
   int iterations_ = 0;
   std::string trouble_;
-  Point previous_;
+  Point previous_, last_;
   std::vector<double> inputs_, arcs_;
   std::vector<Eigen::VectorXcd> multipliers_;
-  std::size_t unexplained_ = 0;  // point before which a multiplier passed +1, without a fold so far
+  static constexpr std::size_t close_by = 2;  // points
+  std::vector<std::size_t> unexplained_;      // points before which a multiplier passed +1, without a fold so far
 };
 
 }  // namespace
@@ -363,30 +432,26 @@ const char* to_string(BranchEvent::Kind kind) {
 
 namespace {
 
-/// Adds to the error of every fold its distance from that with half the samples.
+/// Adds to the error of every fold its distance from the nearest one with half the samples.
 void compare_folds(const LumpedFamily& family, const BranchOptions& options, Branch& branch) {
   if (std::none_of(branch.events.begin(), branch.events.end(),
                    [](const BranchEvent& e) { return e.kind == BranchEvent::Kind::fold; }))
     return;
   auto coarser = options;
-  coarser.samples_per_cycle = std::max(8, options.samples_per_cycle / 2);
+  coarser.samples_per_cycle = options.samples_per_cycle / 2;
   std::vector<double> folds;
-  for (const auto& event : trace_branch(family, coarser).events)
-    if (event.kind == BranchEvent::Kind::fold) folds.push_back(event.input);
-  std::size_t number = 0;
-  for (auto& event : branch.events)
-    if (event.kind == BranchEvent::Kind::fold) {
-      event.error += number < folds.size() ? std::abs(folds[number] - event.input) : not_known;
-      ++number;
-    }
-}
-
-/// Does a branch leave the range where another one begins?
-bool ends_at(const Branch& branch, const Branch& other, const BranchOptions& options) {
-  constexpr double same = 0.02;
-  const auto &last = branch.points.back(), &first = other.points.front();
-  return branch.end.empty() && std::abs(last.input - options.to) < std::abs(last.input - options.from) &&
-         std::abs(last.largest_force - first.largest_force) <= same * first.largest_force;
+  try {
+    if (coarser.samples_per_cycle % 8 == 0)
+      for (const auto& event : trace_branch(family, coarser).events)
+        if (event.kind == BranchEvent::Kind::fold) folds.push_back(event.input);
+  } catch (const SolverError&) {  // the errors are not known then
+  }
+  for (auto& event : branch.events) {
+    if (event.kind != BranchEvent::Kind::fold) continue;
+    double nearest = folds.empty() ? not_known : std::abs(folds.front() - event.input);
+    for (const double fold : folds) nearest = std::min(nearest, std::abs(fold - event.input));
+    event.error += nearest;
+  }
 }
 
 }  // namespace
@@ -396,17 +461,25 @@ std::vector<Branch> branches_between(const LumpedFamily& family, const BranchOpt
   std::string trouble;
   auto back = options;
   std::swap(back.from, back.to);
-  for (const auto& way : {options, back}) {
-    try {
-      auto branch = trace_branch(family, way);
-      if (!list.empty() && ends_at(list.front(), branch, options)) break;
-      compare_folds(family, way, branch);
-      list.push_back(std::move(branch));
-    } catch (const SolverError& error) {
-      trouble = error.what();
-    }
+  Tracer there(family, options), from_end(family, back);
+  try {
+    list.push_back(there.trace());
+    compare_folds(family, options, list.back());
+  } catch (const SolverError& error) {
+    trouble = error.what();
   }
-  if (list.empty()) throw SolverError(trouble);
+  try {
+    constexpr double same = 0.01;
+    const auto& begin = from_end.begin();
+    const bool arrives = !list.empty() && list.front().end.empty() && list.front().points.back().input == options.to &&
+                         there.apart(there.end(), begin) <= same;
+    if (!arrives) {
+      list.push_back(from_end.trace());
+      compare_folds(family, back, list.back());
+    }
+  } catch (const SolverError& error) {
+    if (list.empty()) throw SolverError(trouble + "; " + error.what());
+  }
   return list;
 }
 

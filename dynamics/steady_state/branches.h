@@ -58,7 +58,8 @@ struct BranchOptions {
 /// through three points close to each other; other events where a multiplier passes the unit circle.
 ///
 /// The number of meshes, the names of the DOFs and the period in mesh cycles must not change. Throws InputError where
-/// they do, or for unusable options, SolverError where no motion is found at `from`.
+/// they do, for unusable options and what the family throws, SolverError where no motion is found at `from`. No system
+/// beyond the range is asked for.
 [[nodiscard]] Branch trace_branch(const LumpedFamily& family, const BranchOptions& options);
 
 /// The branches that begin at either end of the range, one where they are the same. Folds have the difference to half

@@ -16,6 +16,14 @@ using Complex = std::complex<double>;
 
 }  // namespace
 
+std::optional<Eigen::Index> load_line(const HarmonicLoad& load, double spacing, Eigen::Index samples) {
+  const double line = std::abs(load.rate) / spacing;
+  constexpr double whole = 1e-6;
+  const auto number = static_cast<Eigen::Index>(std::lround(line));
+  if (std::abs(line - static_cast<double>(number)) > whole || number < 1 || number >= samples / 2) return std::nullopt;
+  return number;
+}
+
 BalanceProblem balance_problem(const LumpedSystem& system, const FrequencyResponse& response,
                                const Eigen::VectorXd& stiffness, double period, Eigen::Index samples) {
   const double spacing = 2 * std::numbers::pi / period;
@@ -27,15 +35,12 @@ BalanceProblem balance_problem(const LumpedSystem& system, const FrequencyRespon
     problem.static_transfer.col(m) = b.transpose() * response.static_displacement(b.col(m));
   problem.static_approach = b.transpose() * response.static_displacement(system.load());
   for (const auto& load : system.harmonic_loads()) {
-    const double rate = std::abs(load.rate), line = rate / spacing;
-    constexpr double whole = 1e-6;
-    if (std::abs(line - std::round(line)) > whole)
-      throw InputError(fmt::format("a load that repeats after {:g} s does not fit a period of {:g} s",
-                                   2 * std::numbers::pi / rate, period));
+    const double rate = std::abs(load.rate);
+    const auto line = load_line(load, spacing, samples);
+    require(line.has_value(), fmt::format("a load of {:g} rad/s does not fit lines {:g} rad/s apart", rate, spacing));
     const Complex sine(0, std::copysign(1.0, load.rate));
     problem.load_lines.push_back(
-        {std::lround(line),
-         response.displacement(rate, (load.cosine.cast<Complex>() - sine * load.sine.cast<Complex>()) / 2)});
+        {*line, response.displacement(rate, (load.cosine.cast<Complex>() - sine * load.sine.cast<Complex>()) / 2)});
   }
   return problem;
 }

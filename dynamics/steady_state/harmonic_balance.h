@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "dynamics/steady_state/frequency_response.h"
 #include "dynamics/steady_state/real_transform.h"
@@ -25,8 +26,11 @@ struct BalanceProblem {
   };
   std::vector<LoadLine> load_lines{};
 };
+/// The number of periods of a load in that of a motion with lines at multiples of `spacing` (rad/s); absent where it is
+/// no whole number from 1 to half the samples.
+[[nodiscard]] std::optional<Eigen::Index> load_line(const HarmonicLoad& load, double spacing, Eigen::Index samples);
 /// For a motion that repeats after `period` (s), with up to `samples`. System and response are referred to; the latter
-/// has this stiffness (N/m, one per mesh). Throws InputError for a load that does not repeat with the period.
+/// has this stiffness (N/m, one per mesh). All loads must have a load_line().
 [[nodiscard]] BalanceProblem balance_problem(const LumpedSystem& system, const FrequencyResponse& response,
                                              const Eigen::VectorXd& stiffness, double period, Eigen::Index samples);
 

@@ -95,7 +95,11 @@ double searched_cycles(const LumpedSystem& system, double mesh_frequency, int pe
                               .period_in_cycles = period,
                               .force_scale = 1,
                               .stiffness = meshes.size() > 0 ? meshes.maxCoeff() : 1};
-  if (reach_of_backlash(system, problem) < within_reach) return 0;
+  try {
+    if (reach_of_backlash(system, problem) < within_reach) return 0;
+  } catch (const InputError&) {  // the run says what is wrong
+    return 0;
+  }
   constexpr double periods = 60;  // until twelve periods repeat (measured on spur pairs and stages: 24 to 100)
   return (options.other_motions.starts + 1) * periods * period;
 }

@@ -5,6 +5,7 @@
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
+#include <exception>
 #include <sundials/sundials_context.hpp>
 
 #include "core/errors.h"
@@ -17,7 +18,19 @@ namespace {
 struct Iteration {
   const Equations& equations;
   Eigen::VectorXd at, result, direction;  ///< `at`: where the residual was evaluated last
+  std::exception_ptr failure{};           ///< of a callback: it must not pass through KINSOL
 };
+
+template <class Call>
+int guarded(Iteration& p, Call call) {
+  constexpr int unrecoverable = -1;
+  try {
+    return call();
+  } catch (...) {
+    p.failure = std::current_exception();
+    return unrecoverable;
+  }
+}
 
 Eigen::Map<Eigen::VectorXd> values(N_Vector v) { return {N_VGetArrayPointer(v), NV_LENGTH_S(v)}; }
 
@@ -25,10 +38,12 @@ extern "C" {
 
 static int annulus_equations(N_Vector u, N_Vector result, void* data) {
   auto& p = *static_cast<Iteration*>(data);
-  p.at = values(u);
-  p.equations.residual(p.at, p.result);
-  values(result) = p.result;
-  return p.result.allFinite() ? 0 : 1;
+  return guarded(p, [&] {
+    p.at = values(u);
+    p.equations.residual(p.at, p.result);
+    values(result) = p.result;
+    return p.result.allFinite() ? 0 : 1;
+  });
 }
 
 static int annulus_equations_derivative(N_Vector v, N_Vector result, N_Vector u, booleantype* new_u, void* data) {
@@ -36,10 +51,12 @@ static int annulus_equations_derivative(N_Vector v, N_Vector result, N_Vector u,
   // The line search may have evaluated another point last.
   if (*new_u && p.at != values(u)) annulus_equations(u, result, data);
   *new_u = SUNFALSE;
-  p.direction = values(v);
-  p.equations.derivative(p.direction, p.result);
-  values(result) = p.result;
-  return 0;
+  return guarded(p, [&] {
+    p.direction = values(v);
+    p.equations.derivative(p.direction, p.result);
+    values(result) = p.result;
+    return 0;
+  });
 }
 
 /// Most of the time of GMRES at this size; the loop of SUNDIALS does one product at a time.
@@ -113,6 +130,7 @@ NewtonKrylovResult solve_newton_krylov(const Equations& equations, const Eigen::
   result.u = start;
   Iteration iteration{equations, start, start, start};
   if (options.max_iterations > 0) Solver(iteration, start, options).solve(result);
+  if (iteration.failure) std::rethrow_exception(iteration.failure);
   // KINSOL may have evaluated another point last.
   equations.residual(result.u, iteration.result);
   result.residual = iteration.result.cwiseAbs().maxCoeff() * options.weight;

@@ -28,7 +28,7 @@ struct NewtonKrylovResult {
 };
 
 /// Newton's method with line search and GMRES (KINSOL) from `start`. With `max_iterations` 0 the residual of the start
-/// alone is found.
+/// alone is found. Throws what the equations throw.
 [[nodiscard]] NewtonKrylovResult solve_newton_krylov(const Equations& equations, const Eigen::VectorXd& start,
                                                      const NewtonKrylovOptions& options);
 

@@ -1,12 +1,17 @@
 #include "dynamics/steady_state/other_motions.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
 
+#include "core/errors.h"
+#include "core/floating_point.h"
 #include "core/parallel.h"
 #include "dynamics/modes/modes.h"
 #include "dynamics/statics/static_solver.h"
@@ -36,7 +41,7 @@ std::vector<int> meshes_with_backlash(const LumpedSystem& system) {
 }
 
 constexpr int block = 12;  ///< periods: whole ones of 1, 2, 3, 4, 6 and 12
-constexpr int force_samples = 32;
+constexpr int force_samples = 64;
 
 /// Twelve periods of the excitation.
 struct Block {
@@ -53,11 +58,12 @@ struct Followed {
   [[nodiscard]] double largest_force() const { return std::max(last.high.maxCoeff(), -last.low.minCoeff()); }
 };
 
-/// Forces of a motion by mesh, in rising order: planets may change places.
-Eigen::MatrixXd features(const Block& b, double scale) {
-  Eigen::MatrixXd list(b.high.rows(), 3);
-  list << b.high.rowwise().maxCoeff() / scale, b.low.rowwise().minCoeff() / scale, b.open;
-  for (auto column : list.colwise()) std::sort(column.begin(), column.end());
+/// Largest and smallest force and loss of contact of every mesh, in rising order: planets may change places.
+std::vector<std::array<double, 3>> features(const Block& b, double scale) {
+  std::vector<std::array<double, 3>> list;
+  for (Eigen::Index m = 0; m < b.high.rows(); ++m)
+    list.push_back({b.high.row(m).maxCoeff() / scale, b.low.row(m).minCoeff() / scale, b.open[m]});
+  std::sort(list.begin(), list.end());
   return list;
 }
 
@@ -71,31 +77,32 @@ class Follower {
     run.start_from(start.q, start.v);
     Followed result;
     std::vector<double> changes;
-    for (int i = 0; i < most_blocks; ++i) {
-      const Block now = advanced(run);
-      if (i > 0) {
-        changes.push_back(difference(now, result.last, 0));
-        if (settled(changes, scale(now))) {
-          result.decided = true;
-          result.period = period_of(now);
-          result.last = now;
-          break;
-        }
-      }
-      result.last = now;
+    for (int i = 0; i < most_blocks && !result.decided; ++i) {
+      Block now = advanced(run);
+      if (i > 0) changes.push_back(difference(now, result.last, 0));
+      // A motion may pass close to an unstable one: one agreement is none.
+      result.decided = changes.size() > 2 && settled(changes, 0, scale(now)) && settled(changes, 1, scale(now));
+      result.last = std::move(now);
     }
-    if (!result.decided) result.decided = keeps_changing(changes);
     result.state = run.state();
     result.state.time = 0;
+    if (result.decided)
+      result.period = period_of(result.last);
+    else
+      result.decided = keeps_changing(changes, scale(result.last)) && parts(result.state);
     return result;
   }
 
   /// All irregular motions are one.
   [[nodiscard]] bool same(const Followed& a, const Followed& b) const {
-    if (a.period != b.period || a.period == 0) return a.period == b.period;
+    if (a.period == 0 || b.period == 0) return a.period == b.period;
     constexpr double share = 0.02;
     const double size = std::max(scale(a.last), scale(b.last));
-    return (features(a.last, size) - features(b.last, size)).cwiseAbs().maxCoeff() <= share;
+    const auto x = features(a.last, size), y = features(b.last, size);
+    for (std::size_t m = 0; m < x.size(); ++m)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (std::abs(x[m].at(i) - y[m].at(i)) > share) return false;
+    return true;
   }
 
  private:
@@ -134,13 +141,13 @@ class Follower {
     return largest;
   }
 
-  /// Do the changes from block to block, continued geometrically, add up to nothing that matters?
-  static bool settled(const std::vector<double>& changes, double scale) {
-    const double last = changes.back();
+  /// Do the changes from block to block, up to the one `before` the last, continued geometrically, add up to nothing
+  /// that matters?
+  static bool settled(const std::vector<double>& changes, std::size_t before, double scale) {
+    const std::size_t i = changes.size() - 1 - before;
+    const double last = changes[i], ratio = last / changes[i - 1];
     constexpr double rounding = 1e-6;
     if (last <= rounding * scale) return true;
-    if (changes.size() < 2) return false;
-    const double ratio = last / changes[changes.size() - 2];
     return ratio < 1 && last / (1 - ratio) <= still * scale;
   }
 
@@ -151,10 +158,27 @@ class Follower {
   }
 
   /// Irregular motions change as much late as they did before; vibrations that die out slowly change less and less.
-  static bool keeps_changing(const std::vector<double>& changes) {
+  static bool keeps_changing(const std::vector<double>& changes, double scale) {
+    constexpr double less = 0.8, matters = 0.05;
     const auto third = static_cast<std::ptrdiff_t>(changes.size() / 3);
     const double middle = *std::max_element(changes.end() - 2 * third, changes.end() - third);
-    return *std::max_element(changes.end() - third, changes.end()) >= 0.5 * middle;
+    const double late = *std::max_element(changes.end() - third, changes.end());
+    return late >= less * middle && late >= matters * scale;
+  }
+
+  /// Do two states close to each other part? Vibrations that only die out slowly stay together.
+  [[nodiscard]] bool parts(const SystemState& state) const {
+    constexpr double apart = 1e-4, growth = 30;
+    const double deflection = problem_.force_scale / problem_.stiffness;
+    const auto after = [&](double moved) {
+      ResponseRun run(system_, problem_.mesh_frequency, force_samples, integrator_);
+      run.start_from(state.q.array() + moved, state.v);
+      run.advance(2 * block * problem_.period_in_cycles, nullptr);
+      return run.state();
+    };
+    const auto a = after(0), b = after(apart * deflection), c = after(-apart * deflection);
+    const double distance = std::max((a.q - b.q).cwiseAbs().maxCoeff(), (a.q - c.q).cwiseAbs().maxCoeff());
+    return distance > growth * apart * deflection;
   }
 
   const LumpedSystem& system_;
@@ -166,7 +190,8 @@ class Follower {
 /// Draws states about the static equilibrium.
 class Starts {
  public:
-  Starts(const LumpedSystem& system, const SteadyProblem& problem, double size) : system_(system) {
+  Starts(const LumpedSystem& system, const SteadyProblem& problem, double size)
+      : system_(system), size_(size), deflection_(problem.force_scale / problem.stiffness) {
     StaticSolver solver(system);
     auto workspace = system.workspace();
     equilibrium_ = solver.solve(0, workspace);
@@ -174,7 +199,7 @@ class Starts {
     for (int m = 0; m < static_cast<int>(workspace.force.size()); ++m) {
       if (!system.is_whole_mesh(m)) continue;
       const auto i = static_cast<std::size_t>(m);
-      size_ = std::max(size_, size * std::abs(workspace.force[i]) / workspace.stiffness[i]);
+      deflection_ = std::max(deflection_, std::abs(workspace.force[i]) / workspace.stiffness[i]);
       const Eigen::VectorXd b = system.mesh_vector(m);
       rates += std::sqrt(workspace.stiffness[i] * b.dot(system.mass().llt().solve(b)));
       ++meshes;
@@ -185,8 +210,16 @@ class Starts {
   }
 
   [[nodiscard]] SystemState draw(std::uint64_t start) const {
-    return {0, equilibrium_ + size_ * random_vector(start, " displacement"),
-            size_ * rate_ * random_vector(start, " velocity"), 0, 0};
+    const double size = size_ * deflection_;
+    return {0, equilibrium_ + size * random_vector(start, " displacement"),
+            size * rate_ * random_vector(start, " velocity"), 0, 0};
+  }
+  /// The same state a little beside.
+  [[nodiscard]] SystemState beside(SystemState state) const {
+    constexpr double little = 0.01;
+    state.time = 0;
+    state.q += little * deflection_ * random_vector(0, " displacement");
+    return state;
   }
 
  private:
@@ -201,24 +234,27 @@ class Starts {
   }
 
   const LumpedSystem& system_;
-  double rate_ = 0, size_ = 0;
+  double size_, deflection_, rate_ = 0;
   Eigen::VectorXd equilibrium_;
   std::vector<Eigen::VectorXd> rigid_;
 };
 
 }  // namespace
 
-double reach_of_backlash(const LumpedSystem& system, const SteadyProblem& problem) {
-  const auto meshes = meshes_with_backlash(system);
-  if (meshes.empty()) return 0;
+namespace {
+
+double bound_over_deflection(const LumpedSystem& system, const SteadyProblem& problem, const std::vector<int>& meshes) {
+  const auto count = static_cast<Eigen::Index>(system.meshes().size());
+  const int cycles = std::min(problem.period_in_cycles, longest_searched_period);
+  const double period = cycles / problem.mesh_frequency;
+  constexpr int most_positions = 400, per_cycle = 16;
+  const int positions = std::min(per_cycle * cycles, most_positions);
+  const auto path = static_path(system, Eigen::VectorXd::LinSpaced(positions, 0, period * (positions - 1) / positions));
   StaticSolver solver(system);
   auto workspace = system.workspace();
   (void)solver.solve(0, workspace);
-  const auto count = static_cast<Eigen::Index>(system.meshes().size());
   const Eigen::VectorXd deflection = Eigen::Map<const Eigen::VectorXd>(workspace.delta.data(), count);
-  const Eigen::VectorXd force = Eigen::Map<const Eigen::VectorXd>(workspace.elastic.data(), count);
-  const int cycles = std::min(problem.period_in_cycles, longest_searched_period);
-  SampledMeshes sampled(system, cycles / problem.mesh_frequency, static_cast<Eigen::Index>(cycles) * force_samples);
+  SampledMeshes sampled(system, period, static_cast<Eigen::Index>(cycles) * force_samples);
   Eigen::MatrixXd approach, rate, forces;
   sampled.at_deflection(deflection, approach, rate);
   approach = approach.colwise().mean().replicate(approach.rows(), 1).eval();
@@ -237,29 +273,52 @@ double reach_of_backlash(const LumpedSystem& system, const SteadyProblem& proble
   const Eigen::VectorXd bound = transfer * swing;
   double reach = 0;
   for (const int m : meshes) {
-    const double penetration = std::abs(force[m]) / tangent[m];
-    if (penetration > 0) reach = std::max(reach, bound[m] / penetration);
+    const double smallest = path.force.row(m).cwiseAbs().minCoeff();
+    constexpr double nothing = 1e-6;
+    const double here = smallest > nothing * problem.force_scale ? bound[m] * tangent[m] / smallest
+                                                                 : std::numeric_limits<double>::infinity();
+    if (std::isnan(here)) return std::numeric_limits<double>::infinity();
+    reach = std::max(reach, here);
   }
   return reach;
 }
 
+}  // namespace
+
+double reach_of_backlash(const LumpedSystem& system, const SteadyProblem& problem) {
+  const auto meshes = meshes_with_backlash(system);
+  if (meshes.empty()) return 0;
+  const UntrappedFloatingPoint untrapped;  // the response of undamped systems is not bounded
+  try {
+    return bound_over_deflection(system, problem, meshes);
+  } catch (const SolverError&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
 StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& problem, const SystemState& present,
-                             const IntegratorOptions& integrator, const MotionSearch& search) {
+                             bool steady, const IntegratorOptions& integrator, const MotionSearch& search) {
   const Follower follower(system, problem, integrator);
   const Starts starts(system, problem, search.size);
   std::vector<Followed> followed(static_cast<std::size_t>(search.starts) + 1);
-  for_each_task(followed.size(), search.threads,
-                [&](std::size_t i) { followed[i] = follower.follow(i == 0 ? present : starts.draw(i)); });
+  for_each_task(followed.size(), search.threads, [&](std::size_t i) {
+    try {
+      followed[i] = follower.follow(i == 0 ? starts.beside(present) : starts.draw(i));
+    } catch (const SolverError&) {  // one start that the integrator cannot follow is not decided
+      followed[i].decided = false;
+    }
+  });
   StableMotions result;
   result.found.starts = search.starts;
   std::vector<std::size_t> examples;
-  // What is known of the present motion is that it is one, however slowly the rest of its vibrations dies out.
-  if (!followed.front().decided) followed.front().period = 1;
   for (std::size_t i = 0; i < followed.size(); ++i) {
     const auto& f = followed[i];
-    if (!f.decided && i > 0) {
-      ++result.found.undecided;
-      continue;
+    if (!f.decided) {
+      // A steady motion is one, however slowly the rest of its vibrations dies out.
+      const bool known = i == 0 && steady && f.last.high.size() > 0;
+      if (i > 0) ++result.found.undecided;
+      if (!known) continue;
+      followed[i].period = 1;
     }
     std::size_t number = 0;
     while (number < examples.size() && !follower.same(followed[examples[number]], f)) ++number;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "core/not_known.h"
 #include "dynamics/time_integration/integrate.h"
 
 namespace annulus::dynamics {
@@ -30,19 +32,20 @@ struct FoundMotion {
 };
 
 struct FoundMotions {
+  double reach = not_known;         ///< reach_of_backlash(); not known where motions were not looked for
   int starts = 0;                   ///< random initial conditions that were tried; 0: none
   std::string not_tried{};          ///< why none were, although backlash is within reach
   std::vector<FoundMotion> list{};  ///< the largest force first; empty where none were tried
-  int undecided = 0;                ///< starts whose vibrations had not died out in the end
+  int undecided = 0;                ///< starts whose vibrations had not died out in the end, or could not be integrated
 };
 
-/// Bound of the vibration over the mean deflection of a mesh beyond its backlash, the largest of all meshes with
-/// backlash; 0 without backlash. The bound is that of the system with mean stiffness at its worst speed: the forces
-/// that stiffness and errors exert at constant approach, all at the natural frequency that amplifies them most. Near
-/// and above 1 teeth may lose contact, and several motions may exist.
+/// Bound of the vibration over the smallest static deflection of a mesh beyond its backlash, the largest of all meshes
+/// with backlash; 0 without backlash, infinite where a mesh carries nothing at some time without any vibration, or
+/// where no bound is found. The bound is that of the system with mean stiffness at its worst speed: the forces that
+/// stiffness and errors exert at constant approach, all at the natural frequency that amplifies them most. Mesh vectors
+/// that move are taken at time 0. Near and above 1 teeth may lose contact, and several motions may exist.
 [[nodiscard]] double reach_of_backlash(const LumpedSystem& system, const SteadyProblem& problem);
-/// From this bound on other motions are looked for. Above the lower one of two stable motions of a mesh with harmonic
-/// stiffness the bound is 1 or more (test).
+/// From this bound on other motions are looked for. Wherever a spur pair has several, it is 1 or more (test).
 inline constexpr double within_reach = 0.5;
 
 /// Stable motions of a system whose excitation repeats after the period of the problem, with the state of each at the
@@ -51,12 +54,15 @@ struct StableMotions {
   FoundMotions found;
   std::vector<SystemState> states{};  ///< in the order of found.list, at time 0
 };
-/// Follows `present` (a state at time 0 of a motion that is known), then the random starts, in time until 12 periods of
-/// the excitation repeat. Two motions are the same when forces and loss of contact of their meshes differ by less than
-/// 2 % of the force scale; meshes may change places. `taken` marks the motion to which `present` leads. The integrator
-/// needs its absolute tolerance. Throws SolverError when the integrator fails.
+/// Follows `present` (a state at time 0 of a motion that is known, or the end of a motion that is not steady), moved by
+/// a hundredth of the static deflection, then the random starts, in time until 12 periods of the excitation repeat
+/// twice. Two motions are the same when forces (relative to the largest) and loss of contact of their meshes differ by
+/// less than 2 %; meshes may change places. A motion that does not repeat is irregular where two of its states that are
+/// close to each other part; all irregular motions count as one. Others are undecided. `taken` marks the motion to
+/// which `present` leads; where it is `steady`, that is a motion in any case. The integrator needs its absolute
+/// tolerance.
 [[nodiscard]] StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& problem,
-                                           const SystemState& present, const IntegratorOptions& integrator,
+                                           const SystemState& present, bool steady, const IntegratorOptions& integrator,
                                            const MotionSearch& search);
 
 /// Longest period, mesh cycles, for which motions are looked for.

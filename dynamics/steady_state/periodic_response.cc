@@ -163,14 +163,14 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
 
   const FrequencyResponse linear(system, mean);
   const double spacing = 2 * std::numbers::pi / period;
-  auto problem = balance_problem(system, linear, mean, period, samples);
-  for (const auto& load : problem.load_lines)
-    if (load.line >= samples / coarsening / 2) {
+  for (const auto& load : system.harmonic_loads())
+    if (!load_line(load, spacing, samples / coarsening)) {
       PeriodicResponse refused;
-      refused.trouble = fmt::format("a load that repeats {} times in a period of {:g} s needs more than {} samples",
-                                    load.line, period, samples / coarsening);
+      refused.trouble = fmt::format("a load that repeats after {:g} s does not fit a period of {:g} s with {} samples",
+                                    2 * std::numbers::pi / std::abs(load.rate), period, samples / coarsening);
       return refused;
     }
+  auto problem = balance_problem(system, linear, mean, period, samples);
 
   PeriodicResponse response;
   approach.resize(0, 0);

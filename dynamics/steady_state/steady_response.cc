@@ -249,8 +249,13 @@ class SteadyStateFinder {
 
 void look_for_other_motions(const LumpedSystem& system, const SteadyProblem& problem, const SimulationOptions& options,
                             SteadyResponse& response) {
-  if (options.other_motions.starts == 0 || options.mesh_cycles || reach_of_backlash(system, problem) < within_reach)
+  if (options.other_motions.starts == 0) return;
+  response.motions.reach = reach_of_backlash(system, problem);
+  if (response.motions.reach < within_reach) return;
+  if (options.mesh_cycles) {
+    response.motions.not_tried = "the number of mesh cycles is prescribed";
     return;
+  }
   if (problem.period_in_cycles > longest_searched_period) {
     response.motions.not_tried = fmt::format("the excitation repeats after {} mesh cycles; up to {} are searched",
                                              problem.period_in_cycles, longest_searched_period);
@@ -263,23 +268,38 @@ void look_for_other_motions(const LumpedSystem& system, const SteadyProblem& pro
     integrator.relative_tolerance = loose;
     *integrator.absolute_tolerance *= factor;
   }
-  auto [found, states] = stable_motions(system, problem, response.begin, integrator, options.other_motions);
+  auto [found, states] =
+      stable_motions(system, problem, response.begin, response.steady, integrator, options.other_motions);
+  found.reach = response.motions.reach;
+  const auto largest_force = [&](const ResponseWindow& window) {
+    double largest = 0;
+    for (Eigen::Index m = 0; m < window.force.rows(); ++m)
+      if (system.is_whole_mesh(static_cast<int>(m)))
+        largest = std::max(largest, window.force.row(m).cwiseAbs().maxCoeff());
+    return largest;
+  };
   const auto taken =
       std::find_if(found.list.begin(), found.list.end(), [](const FoundMotion& motion) { return motion.taken; });
-  constexpr double more = 1.02;
-  if (taken != found.list.begin() && found.list.front().largest_force > more * taken->largest_force) {
+  const double present = taken != found.list.end() ? taken->largest_force : largest_force(response.best);
+  for (std::size_t i = 0; i < found.list.size(); ++i) {
+    auto& motion = found.list[i];
+    constexpr double more = 1.02, part = 0.9;
+    if (motion.largest_force <= more * present) break;
     auto other = problem;
-    other.period_in_cycles *= std::max(1, found.list.front().period);
-    const auto in_time = followed_from(options, &states.front());
-    log::info(fmt::format("{} motions found: time integration on the one with the largest force, {:.3g} N",
-                          found.list.size(), found.list.front().largest_force));
-    auto largest = SteadyStateFinder(system, other, in_time).run();
-    // Close to a fold the integration may leave it.
-    constexpr double part = 0.9;
-    if (largest.best.force.cwiseAbs().maxCoeff() > part * found.list.front().largest_force) {
-      taken->taken = false;
-      found.list.front().taken = true;
+    other.period_in_cycles *= std::max(1, motion.period);
+    const auto in_time = followed_from(options, &states[i]);
+    try {
+      auto largest = SteadyStateFinder(system, other, in_time).run();
+      // Close to a fold the integration may leave it.
+      const bool stays = largest_force(largest.best) > part * motion.largest_force;
+      if (!stays || (motion.period > 0 && !largest.steady)) continue;
+      for (auto& m : found.list) m.taken = false;
+      motion.taken = true;
       response = std::move(largest);
+      break;
+    } catch (const SolverError& error) {
+      log::warn(fmt::format("a motion with forces of {:.3g} N could not be followed: {}", motion.largest_force,
+                            error.what()));
     }
   }
   response.motions = std::move(found);

@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(motions_of_a_spur_pair_by_brute_force) {
       IntegratorOptions integrator = options.integrator;
       integrator.method = Integrator::arkode_explicit;
       integrator.absolute_tolerance = 1e-7 * pair.deflection();
-      const auto again = stable_motions(system, problem, found.begin, integrator, {.starts = 4});
+      const auto again = stable_motions(system, problem, found.begin, found.steady, integrator, {.starts = 4});
       for (std::size_t i = 0; i < again.states.size(); ++i) {
         if (again.found.list[i].period == 0) continue;
         const auto& state = again.states[i];
@@ -121,6 +121,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_tried_out_of_reach) {
   BOOST_TEST(found.motions.list.empty());
   // Half the forced swing over twice the damping ratio.
   BOOST_TEST(reach_of_backlash(system, pair.problem()) == 0.02 / 0.2, boost::test_tools::tolerance(0.03));
+  BOOST_TEST(found.motions.reach == reach_of_backlash(system, pair.problem()));
   pair.half_backlash = 0;
   BOOST_TEST(reach_of_backlash(pair.system(), pair.problem()) == 0);
   pair = {.ripple = 0.2, .speed = 0.8};
@@ -130,6 +131,56 @@ BOOST_AUTO_TEST_CASE(nothing_is_tried_out_of_reach) {
   BOOST_TEST(refused.motions.starts == 0);
   BOOST_TEST(refused.motions.not_tried.find("repeats after 201 mesh cycles") != std::string::npos,
              refused.motions.not_tried);
+}
+
+// Vibrations that die out slowly, or never, are no motions of their own.
+BOOST_AUTO_TEST_CASE(slow_transients_are_undecided) {
+  LumpedSystemBuilder builder;
+  const SpurPair pair{.zeta = 0.05, .ripple = 0.2, .speed = 1.5};
+  MeshElement mesh;
+  mesh.name = "mesh";
+  const auto x = builder.add_dof("x"), support = builder.add_dof("support");
+  mesh.b = x + (-1.0) * support;
+  builder.add_mass(x, SpurPair::mass);
+  builder.add_mass(support, 100 * SpurPair::mass);
+  builder.add_spring(support, SpurPair::stiffness, 0, "soft and undamped");
+  builder.add_load(x, SpurPair::load);
+  mesh.excitation = HarmonicStiffness{SpurPair::stiffness, pair.ripple, 0};
+  mesh.frequency = pair.problem().mesh_frequency;
+  mesh.damping = 2 * pair.zeta * std::sqrt(SpurPair::stiffness * SpurPair::mass);
+  mesh.half_backlash = pair.deflection();
+  builder.add_mesh(mesh);
+  SimulationOptions options;
+  options.other_motions.starts = 8;
+  const auto found = steady_response(builder.build(), pair.problem(), options);
+  BOOST_TEST(found.motions.reach > within_reach);
+  BOOST_TEST(found.motions.undecided > 0);
+  for (const auto& motion : found.motions.list) BOOST_TEST(motion.period != 0);
+  BOOST_TEST(found.steady);
+}
+
+// The number of threads changes nothing; no load is a case in reach.
+BOOST_AUTO_TEST_CASE(threads_and_idle_meshes) {
+  const SpurPair pair{.ripple = 0.2, .speed = 0.84};
+  SimulationOptions options;
+  options.other_motions.starts = 12;
+  const auto one = steady_response(pair.system(), pair.problem(), options);
+  options.other_motions.threads = 2;
+  const auto two = steady_response(pair.system(), pair.problem(), options);
+  BOOST_REQUIRE(one.motions.list.size() == two.motions.list.size());
+  for (std::size_t i = 0; i < one.motions.list.size(); ++i) {
+    BOOST_TEST(one.motions.list[i].largest_force == two.motions.list[i].largest_force);
+    BOOST_TEST(one.motions.list[i].starts == two.motions.list[i].starts);
+  }
+  options.mesh_cycles = 40;
+  const auto prescribed = steady_response(pair.system(), pair.problem(), options);
+  BOOST_TEST(prescribed.motions.not_tried.find("prescribed") != std::string::npos, prescribed.motions.not_tried);
+  LumpedSystemBuilder builder;
+  MeshElement mesh = pair.system().meshes().front();
+  mesh.b = builder.add_dof("x");
+  builder.add_mass(mesh.b, SpurPair::mass);
+  builder.add_mesh(mesh);
+  BOOST_TEST(std::isinf(reach_of_backlash(builder.build(), pair.problem())));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -11,7 +11,6 @@ enum class ErrorPhases { given, unknown };
 enum class Goal { smallest, largest };
 enum class RandomKind { uniform, normal, lognormal };
 
-/// One input run through a row of values. Values of studies are in the unit of their input, as in the file.
 /// How the motions of a row of values are found.
 enum class SweepDirection {
   each,  ///< every value by itself
@@ -21,6 +20,7 @@ enum class SweepDirection {
   branches  ///< both, and the branches of periodic motions between the ends
 };
 
+/// One input run through a row of values. Values of studies are in the unit of their input, as in the file.
 struct SweepInput {
   std::string input;               ///< key path (overrides.h)
   std::optional<double> from, to;  ///< these and `count`, or `values`

@@ -71,6 +71,7 @@ dynamics::SimulationOptions without_confirmation(const Scene& scene) {
   auto simulation = pair_simulation(scene);
   simulation.confirmation = dynamics::Confirmation::where_needed;
   simulation.keep_series = false;
+  simulation.other_motions.starts = 0;  // causes are compared on motions that belong together
   return simulation;
 }
 

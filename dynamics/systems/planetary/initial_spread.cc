@@ -81,6 +81,7 @@ InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOpt
   const StartSampler sampler(stage, options);
   PointOptions point{.simulation = options.simulation, .motion = false};
   point.simulation.steady_state = SteadyState::time_integration;
+  point.simulation.other_motions.starts = 0;  // the starts of the spread are its own
   InitialSpread spread;
   for (int i = 0; i <= options.random_starts; ++i) {
     if (i > 0) point.simulation.start = sampler.draw(static_cast<std::uint64_t>(i));
@@ -96,6 +97,7 @@ InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOpt
     }
     if (i == 0) spread.low = spread.high = start.figures;
     for (const auto& entry : start.figures.entries()) {
+      if (std::isnan(entry.figure.value) || std::isnan(spread.low.value(entry.key))) continue;
       spread.low.set(entry.key, std::min(spread.low.value(entry.key), entry.figure.value));
       spread.high.set(entry.key, std::max(spread.high.value(entry.key), entry.figure.value));
     }

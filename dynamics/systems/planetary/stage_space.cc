@@ -58,8 +58,9 @@ void StageSpace::check(int planets) const {
     if (const double skew = (b.stiffness - b.stiffness.transpose()).cwiseAbs().maxCoeff();
         skew > rounding * b.stiffness.cwiseAbs().maxCoeff())
       throw InputError(fmt::format("the stiffness of bearing '{}' differs from its transpose by {:g}", b.name, skew));
-    if (b.on.kind != StageBody::Kind::housing && b.standing.any())
-      throw InputError(fmt::format("bearing '{}' has a force that stands in the housing, but is not in it", b.name));
+    if ((b.on.kind != StageBody::Kind::housing && b.standing.any()) || b.standing[2] != 0)
+      throw InputError(fmt::format(
+          "bearing '{}' has a force that stands in the housing, but is not in it, or acts along the axis", b.name));
     if (b.on.kind == StageBody::Kind::planet || b.body.kind == StageBody::Kind::housing)
       throw InputError(fmt::format("bearing '{}' supports the housing or stands on a planet", b.name));
   }
@@ -77,7 +78,7 @@ bool StageSpace::depends_on_carrier_angle() const {
          std::any_of(bearings.begin(), bearings.end(), [](const auto& b) { return b.standing.any(); });
 }
 
-LinearBearing::Vector quarter_turn_later(const LinearBearing::Vector& s) { return {s[1], -s[0], s[2], s[4], -s[3]}; }
+LinearBearing::Vector quarter_turn_later(const LinearBearing::Vector& s) { return {s[1], -s[0], 0, s[4], -s[3]}; }
 
 const std::vector<FacePlace>& face_places() {
   using Rule = boost::math::quadrature::gauss<double, 20>;

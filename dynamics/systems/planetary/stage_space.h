@@ -23,7 +23,7 @@ struct LinearBearing {
   Stiffness stiffness = Stiffness::Zero();  ///< K, symmetric: N/m, N, N m/rad; 0 in rigid coordinates
   std::array<bool, 5> rigid{};              ///< these coordinates stay 0; of central bodies only against the housing
   Vector preload = Vector::Zero();          ///< f: N, N m
-  /// Of a bearing in the housing: a part of f that stands still there, in the axes of the carrier at time 0.
+  /// A part of f that stands still in the housing, in the axes of the carrier at time 0; of bearings there alone.
   Vector standing = Vector::Zero();
   /// Its name among springs, in columns and in groups of modal energy: "planet1_upwind_row".
   [[nodiscard]] std::string element() const;
@@ -70,7 +70,7 @@ struct StageSpace {
   void check(int planets) const;
 };
 
-/// What stands in the housing, in the axes of the carrier a quarter turn later.
+/// A standing force in the axes of the carrier a quarter turn later; nothing along the axis.
 [[nodiscard]] LinearBearing::Vector quarter_turn_later(const LinearBearing::Vector& standing);
 
 /// Places at which the load along a face is found, from -1 to 1 (end to end), those of Gauss, and their weights, which

@@ -173,7 +173,9 @@ void add_load(const SpatialStage& stage, const StageLoad& load, StageSpace& spac
   for (Eigen::Index i = 0; i < 6; ++i)
     if (std::abs(constant.load[i]) <= rounding * (i < 3 ? force : moment)) constant.load[i] = 0;
   if (constant.load.any()) space.loads.push_back(constant);
-  space.standing_loads.push_back({load.body, now - constant.load, quarter - constant.load});
+  const StandingLoad standing{load.body, now - constant.load, quarter - constant.load};
+  // What does nothing would lengthen the period all the same.
+  if (standing.cosine.any() || standing.sine.any()) space.standing_loads.push_back(standing);
 }
 
 /// All loads and weights of a stage.
@@ -251,7 +253,13 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
     for (const auto kind : {Kind::sun, Kind::ring, Kind::carrier}) space.bearings.push_back(plane_guide({kind}));
     for (int n = 0; n < stage.planets(); ++n) space.bearings.push_back(plane_guide({Kind::planet, n}));
   }
-  for (const auto& load : all_loads(stage)) add_load(stage, load, space);
+  for (auto load : all_loads(stage)) {
+    if (!in_space) {  // moments tilt nothing
+      load.moment.head<2>().setZero();
+      load.point.z() = 0;
+    }
+    add_load(stage, load, space);
+  }
   return space;
 }
 

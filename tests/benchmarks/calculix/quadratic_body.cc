@@ -64,6 +64,51 @@ std::vector<int> cut_nodes(const QuadraticBody& body, Boundary cut) {
   return nodes;
 }
 
+/// Cuts of a body, nodes of ascending radii.
+struct Seams {
+  std::vector<int> first, last;  ///< empty at the beginning
+};
+
+/// Adds a tooth to the body behind the last cut; `closing`: its upper cut is the first one.
+void append(QuadraticBody& body, Seams& seams, const QuadraticBody& sector, int tooth, double pitch_angle,
+            double tolerance, bool closing) {
+  const Eigen::Rotation2Dd turn(tooth * pitch_angle);
+  std::vector<int> index(sector.nodes.size(), -1);
+  const auto join = [&](const std::vector<int>& cut, const std::vector<int>& seam) {
+    require(cut.size() == seam.size(), "neighbouring sectors do not conform");
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+      require((turn * sector.nodes[cut[i]] - body.nodes[seam[i]]).norm() < tolerance,
+              "neighbouring sectors do not conform");
+      index[cut[i]] = seam[i];
+    }
+  };
+  const auto low = cut_nodes(sector, Boundary::side_low), high = cut_nodes(sector, Boundary::side_high);
+  const bool begins = seams.first.empty();
+  if (!begins) join(low, seams.last);
+  if (closing) join(high, seams.first);
+  for (std::size_t i = 0; i < index.size(); ++i)
+    if (index[i] < 0) {
+      index[i] = static_cast<int>(body.nodes.size());
+      body.nodes.push_back(turn * sector.nodes[i]);
+    }
+  const auto in_body = [&](std::vector<int> cut) {
+    for (int& node : cut) node = index[node];
+    return cut;
+  };
+  if (begins) seams.first = in_body(low);
+  seams.last = in_body(high);
+  const int first_cell = static_cast<int>(body.cells.size());
+  for (auto cell : sector.cells) {
+    for (int& node : cell) node = index[node];
+    body.cells.push_back(cell);
+  }
+  for (auto side : sector.sides) {
+    side.cell += first_cell;
+    side.tooth = tooth;
+    body.sides.push_back(side);
+  }
+}
+
 }  // namespace
 
 std::vector<int> QuadraticBody::nodes_on(Boundary boundary) const {
@@ -87,39 +132,24 @@ QuadraticBody make_segment(const geometry::ToothProfile& profile, const Mesh& fi
   const QuadraticBody coarse_tooth =
       quadratic(coarse_partner(fine, profile.gear(), support_radius), profile, support_radius);
   QuadraticBody body;
-  std::vector<int> seam;  // nodes of the last cut, already in the body
-  for (int tooth = segment.first; tooth <= segment.last; ++tooth) {
-    const bool is_fine = tooth >= segment.first_fine && tooth <= segment.last_fine;
-    const QuadraticBody& sector = is_fine ? fine_tooth : coarse_tooth;
-    const Eigen::Rotation2Dd turn(tooth * profile.gear().pitch_angle());
-    std::vector<int> index(sector.nodes.size(), -1);
-    if (tooth > segment.first) {
-      const auto low = cut_nodes(sector, Boundary::side_low);
-      require(low.size() == seam.size(), "neighbouring sectors do not conform");
-      for (std::size_t i = 0; i < low.size(); ++i) {
-        require((turn * sector.nodes[low[i]] - body.nodes[seam[i]]).norm() < 1e-9 * support_radius,
-                "neighbouring sectors do not conform");
-        index[low[i]] = seam[i];
-      }
-    }
-    for (std::size_t i = 0; i < index.size(); ++i)
-      if (index[i] < 0) {
-        index[i] = static_cast<int>(body.nodes.size());
-        body.nodes.push_back(turn * sector.nodes[i]);
-      }
-    const int first_cell = static_cast<int>(body.cells.size());
-    for (auto cell : sector.cells) {
-      for (int& node : cell) node = index[node];
-      body.cells.push_back(cell);
-    }
-    for (auto side : sector.sides) {
-      side.cell += first_cell;
-      side.tooth = tooth;
-      body.sides.push_back(side);
-    }
-    seam = cut_nodes(sector, Boundary::side_high);
-    for (int& node : seam) node = index[node];
-  }
+  Seams seams;
+  for (int tooth = segment.first; tooth <= segment.last; ++tooth)
+    append(body, seams, tooth >= segment.first_fine && tooth <= segment.last_fine ? fine_tooth : coarse_tooth, tooth,
+           profile.gear().pitch_angle(), 1e-9 * support_radius, false);
+  return body;
+}
+
+QuadraticBody make_gear(const geometry::ToothProfile& profile, const Mesh& fine, double support_radius,
+                        const std::set<int>& fine_teeth) {
+  const QuadraticBody fine_tooth = quadratic(fine, profile, support_radius);
+  const QuadraticBody coarse_tooth =
+      quadratic(coarse_partner(fine, profile.gear(), support_radius), profile, support_radius);
+  QuadraticBody body;
+  Seams seams;
+  const int teeth = profile.gear().teeth();
+  for (int tooth = 0; tooth < teeth; ++tooth)
+    append(body, seams, fine_teeth.count(tooth) > 0 ? fine_tooth : coarse_tooth, tooth, profile.gear().pitch_angle(),
+           1e-9 * support_radius, tooth + 1 == teeth);
   return body;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -36,5 +37,8 @@ struct Segment {
 };
 [[nodiscard]] QuadraticBody make_segment(const geometry::ToothProfile& profile, const geometry::Mesh& fine,
                                          double support_radius, const Segment& segment);
+/// All teeth of a gear, a closed body; `fine_teeth` have the mesh `fine`, the others its coarse partner.
+[[nodiscard]] QuadraticBody make_gear(const geometry::ToothProfile& profile, const geometry::Mesh& fine,
+                                      double support_radius, const std::set<int>& fine_teeth);
 
 }  // namespace annulus::benchmarks
