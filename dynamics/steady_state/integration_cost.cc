@@ -100,8 +100,11 @@ double searched_cycles(const LumpedSystem& system, double mesh_frequency, int pe
   } catch (const InputError&) {  // the run says what is wrong
     return 0;
   }
-  constexpr double periods = 60;  // until twelve periods repeat (measured on spur pairs and stages: 24 to 100)
-  return (options.other_motions.starts + 1) * periods * period;
+  // Until twelve periods repeat (measured on spur pairs and stages: 24 to 100), and no more than the search takes.
+  constexpr double periods = 60, most_seconds = 10;
+  const double of_start = integration_seconds(system, mesh_frequency, periods * period, options.integrator);
+  const double starts = std::min<double>(options.other_motions.starts, most_seconds / of_start);
+  return (starts + 1) * periods * period;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -17,6 +18,7 @@
 #include "dynamics/statics/static_solver.h"
 #include "dynamics/statistics/sampling.h"
 #include "dynamics/steady_state/frequency_response.h"
+#include "dynamics/steady_state/real_transform.h"
 #include "dynamics/steady_state/response_run.h"
 #include "dynamics/steady_state/sampled_meshes.h"
 #include "dynamics/steady_state/steady_response.h"
@@ -106,7 +108,7 @@ class Follower {
   }
 
  private:
-  static constexpr int most_blocks = 60;
+  static constexpr int most_blocks = 24;
   static constexpr double still = 5e-3;  ///< of the force
 
   [[nodiscard]] double scale(const Block& b) const {
@@ -259,18 +261,29 @@ double bound_over_deflection(const LumpedSystem& system, const SteadyProblem& pr
   sampled.at_deflection(deflection, approach, rate);
   approach = approach.colwise().mean().replicate(approach.rows(), 1).eval();
   sampled.evaluate(approach, Eigen::MatrixXd::Zero(rate.rows(), rate.cols()), forces);
-  const Eigen::VectorXd swing = (forces.colwise().maxCoeff() - forces.colwise().minCoeff()).transpose() / 2;
   Eigen::VectorXd tangent = sampled.tangent().colwise().mean();
   for (Eigen::Index m = 0; m < count; ++m)
     if (!(tangent[m] > 0)) tangent[m] = mean_stiffness(system.meshes()[static_cast<std::size_t>(m)].excitation);
   const FrequencyResponse linear(system, tangent);
-  Eigen::MatrixXd transfer = Eigen::MatrixXd::Zero(count, count);
+  // Harmonics of the forces, each at the natural frequencies that a change of the speed by a factor of three brings it
+  // to.
+  const Eigen::Index samples = forces.rows();
+  const RealTransform transform(static_cast<int>(samples));
+  Eigen::MatrixXcd lines(samples / 2 + 1, count);
+  for (Eigen::Index m = 0; m < count; ++m) transform.forward(forces.col(m).data(), lines.col(m).data());
+  lines *= 2.0 / static_cast<double>(samples);
+  constexpr double lowest = 0.3, highest = 3;
+  Eigen::VectorXd bound = Eigen::VectorXd::Zero(count);
   for (const auto& mode : modes(system, tangent).modes) {
     if (mode.frequency == 0) continue;
     const Eigen::MatrixXd at = linear.mesh_transfer(2 * std::numbers::pi * mode.frequency, 1);
-    transfer = transfer.cwiseMax((at.leftCols(count).cwiseAbs2() + at.rightCols(count).cwiseAbs2()).cwiseSqrt());
+    const Eigen::MatrixXcd transfer = at.leftCols(count) + std::complex<double>(0, 1) * at.rightCols(count);
+    const double line = mode.frequency * period;
+    const auto first = static_cast<Eigen::Index>(std::max(1.0, std::ceil(lowest * line)));
+    const auto last = static_cast<Eigen::Index>(std::min(static_cast<double>(samples / 2 - 1), highest * line));
+    for (Eigen::Index h = first; h <= last; ++h)
+      bound = bound.cwiseMax((transfer * lines.row(h).transpose()).cwiseAbs());
   }
-  const Eigen::VectorXd bound = transfer * swing;
   double reach = 0;
   for (const int m : meshes) {
     const double smallest = path.force.row(m).cwiseAbs().minCoeff();

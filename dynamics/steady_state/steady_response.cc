@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "core/log.h"
 #include "dynamics/modes/modes.h"
+#include "dynamics/steady_state/integration_cost.h"
 #include "dynamics/steady_state/periodic_solution.h"
 #include "dynamics/steady_state/window_integration.h"
 
@@ -268,8 +269,19 @@ void look_for_other_motions(const LumpedSystem& system, const SteadyProblem& pro
     integrator.relative_tolerance = loose;
     *integrator.absolute_tolerance *= factor;
   }
-  auto [found, states] =
-      stable_motions(system, problem, response.begin, response.steady, integrator, options.other_motions);
+  // As many starts as some ten seconds of processor time allow, by the cost law: the same on every machine.
+  constexpr double most_seconds = 10, periods = 80;
+  constexpr int fewest = 4;
+  const double of_start =
+      integration_seconds(system, problem.mesh_frequency, periods * problem.period_in_cycles, integrator);
+  auto search = options.other_motions;
+  search.starts = static_cast<int>(std::min<double>(search.starts, most_seconds / of_start));
+  if (search.starts < std::min(fewest, options.other_motions.starts)) {
+    response.motions.not_tried = fmt::format("to follow {} of them would take some {:.0f} s",
+                                             options.other_motions.starts, of_start * options.other_motions.starts);
+    return;
+  }
+  auto [found, states] = stable_motions(system, problem, response.begin, response.steady, integrator, search);
   found.reach = response.motions.reach;
   const auto largest_force = [&](const ResponseWindow& window) {
     double largest = 0;

@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(motions_of_a_spur_pair_by_brute_force) {
       const std::string at = "ripple " + std::to_string(ripple) + ", speed " + std::to_string(speed);
       if (groups.size() + (irregular > 0 ? 1 : 0) > 1) {
         ++several;
-        BOOST_TEST(reach >= 2 * within_reach, at << ", reach " << reach);
+        BOOST_TEST(reach >= within_reach, at << ", reach " << reach);
       }
       double largest = 0;
       for (const auto& [force, count] : groups) {
