@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(a_run_lists_all_motions_and_leads_with_the_worst) {
   BOOST_TEST((warning(alone, "several_motions") == nullptr));
   // Far from a resonance there is one.
   const auto away = run(folder, spur_pair(1000));
-  BOOST_TEST(motions_of(away).size() == 1);
+  BOOST_TEST(away.at("response").at("motions").is_null());
   BOOST_TEST(warning(away, "several_motions") == nullptr);
 }
 
