@@ -43,8 +43,8 @@ const std::vector<Definition>& definitions() {
        "[ISO6336-1]"},
       {"stable_motions", "", "Stable motions",
        "number of different steady motions to which initial conditions lead at one speed and load",
-       "With backlash several motions may exist. What happened before decides which one runs; results are those of the "
-       "motion with the largest mesh force.",
+       "With backlash several motions may exist. The history of the machine decides which one runs. Results are those "
+       "of the motion with the largest mesh force.",
        ""},
       {"contact_loss", "", "Time without contact", "largest over the meshes of (time in which no tooth touches) / time",
        "Teeth separate where the vibration exceeds the mean deflection. Several motions may then exist.", ""},

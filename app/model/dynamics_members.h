@@ -63,7 +63,7 @@ ANNULUS_MEMBERS(dynamics::EnergyBalance, supplied, dissipated, change, relative)
 ANNULUS_MEMBERS(dynamics::IntegratorStatistics, steps, rhs_evaluations, jacobian_evaluations, contact_events,
                 stiffness_restarts);
 ANNULUS_MEMBERS(dynamics::FoundMotion, period, largest_force, contact_loss, starts, taken);
-ANNULUS_MEMBERS(dynamics::FoundMotions, reach, starts, not_tried, list, undecided);
+ANNULUS_MEMBERS(dynamics::FoundMotions, reach, wanted, starts, not_tried, list, undecided);
 ANNULUS_MEMBERS(dynamics::SteadyOutcome, window_cycles, whole_period, total_cycles, steady, confirmed,
                 steady_difference, periodic, integrator, energy, statistics, motions, begin, end);
 

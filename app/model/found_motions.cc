@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "core/json.h"
 
 namespace annulus::app {
@@ -15,6 +17,7 @@ std::string period_text(const dynamics::FoundMotion& motion) {
 Json to_json(const dynamics::FoundMotions& motions) {
   if (motions.starts == 0) return nullptr;
   Json json = {{"reach_of_backlash", json_number(motions.reach)},
+               {"starts_wanted", motions.wanted},
                {"starts", motions.starts},
                {"undecided", motions.undecided},
                {"found", Json::array()}};
@@ -50,10 +53,16 @@ std::vector<Warning> motion_warnings(const dynamics::FoundMotions& motions, doub
                      motions.list.size(), fmt::join(found, "; "),
                      largest ? "the first one" : "one with less force, because small disturbances end the first one",
                      motions.undecided > 0 ? fmt::format(". {} starts were not decided", motions.undecided) : ""),
-
          variant}};
   }
   std::vector<Warning> list;
+  if (motions.starts < motions.wanted)
+    list.push_back(
+        {"few_starts", Severity::note,
+         fmt::format("other motions were looked for from {} initial conditions instead of {}, because each "
+                     "takes long: a motion to which 5 % of them lead is missed with a probability of {:.0f} %",
+                     motions.starts, motions.wanted, 100 * std::pow(0.95, motions.starts)),
+         variant});
   if (motions.undecided > 0)
     list.push_back(
         {"motions_undecided", 2 * motions.undecided > motions.starts ? Severity::warning : Severity::note,

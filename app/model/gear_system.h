@@ -90,6 +90,9 @@ class GearSystem {
     return std::nullopt;
   }
 
+  /// Whether the motions of a sweep can be found in this way.
+  [[nodiscard]] virtual bool offers(SweepDirection direction) const { return direction == SweepDirection::each; }
+
   /// What the scene says of itself beyond what those of every kind do (scene_warnings.h).
   [[nodiscard]] virtual std::vector<Warning> scene_warnings() const { return {}; }
   /// The same of the response of a variant of run_variants (run_warnings.h).

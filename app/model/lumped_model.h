@@ -46,7 +46,7 @@ class LumpedModel {
   using Follow = std::function<FollowedPoint(const dynamics::SystemState* start)>;
   /// The system itself.
   using Lumped = std::function<dynamics::LumpedCase()>;
-  /// What not every kind offers.
+  /// What not every kind offers; the last two as GearSystem::offers says.
   struct Abilities {
     Starts starts{};
     Follow follow{};
@@ -64,9 +64,7 @@ class LumpedModel {
     if (!abilities_.starts) return std::nullopt;
     return abilities_.starts(count, seed);
   }
-  [[nodiscard]] bool follows() const { return static_cast<bool>(abilities_.follow); }
   [[nodiscard]] FollowedPoint followed(const dynamics::SystemState* start) const { return abilities_.follow(start); }
-  [[nodiscard]] bool has_branches() const { return static_cast<bool>(abilities_.lumped); }
   [[nodiscard]] dynamics::LumpedCase lumped() const { return abilities_.lumped(); }
 
  private:

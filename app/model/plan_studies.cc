@@ -67,8 +67,8 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
     const bool searches = !cases.empty() && cases.front().other_motions;
     add(std::move(name), std::move(what), cases.size() + besides, searches ? searched : whole, tables);
   };
-  // A branch has some hundred points.
-  constexpr std::size_t of_branches = 400;
+  // Rough: the branch of a spur pair had 200 points, and half of that again for the errors of its folds.
+  constexpr std::size_t of_branches = 300;
   const auto more_points = [](const SweepInput& sweep, std::size_t cases) {
     return (sweep.goes_up() && sweep.goes_down() ? cases : 0) +
            (sweep.direction == SweepDirection::branches ? of_branches : 0);

@@ -14,6 +14,13 @@ constexpr const char* path_meaning =
 const std::vector<Choice<SweepScale>> scales = {{"linear", SweepScale::linear},
                                                 {"logarithmic", SweepScale::logarithmic}};
 
+const std::vector<Choice<SweepDirection>> directions = [] {
+  std::vector<Choice<SweepDirection>> list;
+  for (std::size_t i = 0; i < direction_names.size(); ++i)
+    list.push_back({direction_names.at(i), static_cast<SweepDirection>(i)});
+  return list;
+}();
+
 /// Values of studies are bounded as the widest key is; the key that is varied has bounds of its own.
 constexpr int most_study_values = 10000;
 
@@ -45,12 +52,7 @@ Table sweep_table() {
   Declarations<SweepInput> row(
       "sweep", "One input takes a row of values, for every ring. Several tables are several sweeps.", &Scene::sweeps);
   declare_row(row, "");
-  row.choice("direction", &SweepInput::direction,
-             {{"each", SweepDirection::each},
-              {"up", SweepDirection::up},
-              {"down", SweepDirection::down},
-              {"both", SweepDirection::both},
-              {"branches", SweepDirection::branches}},
+  row.choice("direction", &SweepInput::direction, directions,
              "How the motion of each value is found. each: by itself. up, down: in time from that of the value before, "
              "in rising or falling order, as when a machine runs up or down. both: up and down. branches: both, and "
              "the branches of periodic motions between the ends, stable or not, with the values at which they jump.")

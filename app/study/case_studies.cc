@@ -127,7 +127,6 @@ SweepResult run_sweep(const StudySubject& subject, std::size_t sweep) {
     result.variants = take(run_cases(subject, cases, label), "");
     return result;
   }
-  check_direction(subject, cases.front(), input.direction);
   if (input.goes_up()) result.variants = take(run_in_order(subject, cases, SweepOrder::rising, label + ", up"), "");
   if (input.goes_down()) {
     auto down =

@@ -48,17 +48,6 @@ std::vector<std::size_t> in_order(const std::vector<StudyCase>& cases, SweepOrde
 
 }  // namespace
 
-void check_direction(const StudySubject& subject, const StudyCase& first, SweepDirection direction) {
-  (void)subject.prepare(first);
-  const auto model = subject.model(first, 0);
-  const bool branches = direction == SweepDirection::branches;
-  if (branches ? model->has_branches() : model->follows()) return;
-  throw InputError(fmt::format("{}: sweep.direction = \"{}\" is not offered for stages of kind {}; use {}",
-                               first.place.empty() ? subject.scene().file.string() : first.place,
-                               branches ? "branches" : "up, down or both", subject.scene().stage.kind,
-                               model->follows() ? "\"both\"" : "\"each\""));
-}
-
 CasePoints run_in_order(const StudySubject& subject, const std::vector<StudyCase>& cases, SweepOrder order,
                         const std::string& label) {
   const auto& figures = subject.figures();

@@ -13,9 +13,6 @@ namespace annulus::app {
 
 enum class SweepOrder { rising, falling };
 
-/// Throws InputError for kinds that do not offer the direction.
-void check_direction(const StudySubject& subject, const StudyCase& first, SweepDirection direction);
-
 /// The motion of each value followed in time from the end of that before, by variant; points in the order of `cases`.
 /// After a failure the next value starts from equilibrium.
 [[nodiscard]] CasePoints run_in_order(const StudySubject& subject, const std::vector<StudyCase>& cases,

@@ -49,11 +49,24 @@ void check_random_input(const Scene& scene, const RandomVariable& variable, cons
                     tables.front().label()));
 }
 
+void check_directions(const Scene& scene) {
+  const auto system = make_system(scene);
+  for (std::size_t i = 0; i < scene.sweeps.size(); ++i) {
+    const auto direction = scene.sweeps[i].direction;
+    if (system->offers(direction)) continue;
+    throw InputError(fmt::format("{}: sweep.direction = \"{}\" is not offered for stages of kind {}; use \"{}\"",
+                                 place_text(scene, "sweep.direction", i),
+                                 direction_names.at(static_cast<std::size_t>(direction)), scene.stage.kind,
+                                 system->offers(SweepDirection::both) ? "both" : "each"));
+  }
+}
+
 }  // namespace
 
 void check_studies(const Scene& scene) {
   if (!scene.dynamics) return;
   for (const auto& study_case : all_cases(scene)) (void)change_scene(scene, study_case);
+  check_directions(scene);
   const auto sampling = sampling_of(scene);
   if (!sampling) return;
   if (sampling->variables.empty())

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <complex>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "core/errors.h"
 #include "core/not_known.h"
+#include "dynamics/modes/modes.h"
 #include "dynamics/steady_state/floquet.h"
 #include "dynamics/steady_state/harmonic_balance.h"
 #include "dynamics/steady_state/newton_krylov.h"
@@ -30,12 +32,12 @@ struct BalanceAt {
 
   BalanceAt(LumpedCase of, const BranchOptions& options, const Eigen::VectorXd& stiffness)
       : lumped(std::move(of)),
-        period(options.period_multiple * lumped.problem.period_in_cycles / lumped.problem.mesh_frequency),
+        period(lumped.problem.period_in_cycles / lumped.problem.mesh_frequency),
         linear(lumped.system, stiffness),
         problem(balance_problem(lumped.system, linear, stiffness, period, samples_of(options, lumped.problem))),
         balance(problem, period, samples_of(options, lumped.problem)) {}
   static Eigen::Index samples_of(const BranchOptions& options, const SteadyProblem& problem) {
-    return static_cast<Eigen::Index>(options.samples_per_cycle) * options.period_multiple * problem.period_in_cycles;
+    return static_cast<Eigen::Index>(options.samples_per_cycle) * problem.period_in_cycles;
   }
 };
 
@@ -51,18 +53,16 @@ class Tracer {
     if (!(options.from != options.to) || !std::isfinite(options.from) || !std::isfinite(options.to))
       throw InputError(
           fmt::format("a branch needs two different ends of its input, not {} and {}", options.from, options.to));
-    if (options.samples_per_cycle < 8 || options.samples_per_cycle % 8 != 0 || options.period_multiple < 1)
+    if (options.samples_per_cycle < 8 || options.samples_per_cycle % 8 != 0)
       throw InputError(
-          fmt::format("a branch needs a multiple of 8 samples per mesh cycle and a whole number of "
-                      "periods, not {} and {}",
-                      options.samples_per_cycle, options.period_multiple));
+          fmt::format("a branch needs a multiple of 8 samples per mesh cycle, not {}", options.samples_per_cycle));
     const auto first = family(options.from), last = family(options.to);
     meshes_ = static_cast<Eigen::Index>(first.system.meshes().size());
     names_ = first.system.names();
     cycles_ = first.problem.period_in_cycles;
     if (first.system.has_moving_vectors())
       throw InputError("mesh vectors that move with the mesh (elastic modes of the ring) have no branches");
-    stiffness_ = mean_mesh_stiffness(first.system);
+    stiffness_ = mean_stiffnesses(first.system);
     range_ = options.to - options.from;
     for (const auto* lumped : {&first.problem, &last.problem})
       length_ = std::max(length_, lumped->force_scale / lumped->stiffness);
@@ -107,13 +107,6 @@ class Tracer {
   }
 
  private:
-  static Eigen::VectorXd mean_mesh_stiffness(const LumpedSystem& system) {
-    Eigen::VectorXd mean(static_cast<Eigen::Index>(system.meshes().size()));
-    for (Eigen::Index m = 0; m < mean.size(); ++m)
-      mean[m] = mean_stiffness(system.meshes()[static_cast<std::size_t>(m)].excitation);
-    return mean;
-  }
-
   [[nodiscard]] double value(const Point& point) const { return options_.from + range_ * point.input(); }
 
   /// The last three are cached: the residual, its derivative with the input, and the present point.
@@ -145,19 +138,12 @@ class Tracer {
 
   Point first_point() {
     const auto& first = at(0);
-    const Eigen::Index size = first.balance.samples() * meshes_;
-    Eigen::VectorXd z(size);
-    if (options_.start.size() > 0) {
-      require(options_.start.size() == size, fmt::format("{} approaches for {} unknowns", options_.start.size(), size));
-      z = options_.start.reshaped() / length_;
-    } else {
-      PeriodicOptions periodic;
-      periodic.samples_per_cycle = options_.samples_per_cycle;
-      const auto found =
-          periodic_response(first.lumped.system, first.period, cycles_ * options_.period_multiple, periodic);
-      if (!found.converged) throw SolverError(fmt::format("no motion at {:g}: {}", options_.from, found.trouble));
-      z = (first.linear.mesh_vectors().transpose() * found.displacement).transpose().reshaped() / length_;
-    }
+    PeriodicOptions periodic;
+    periodic.samples_per_cycle = options_.samples_per_cycle;
+    const auto found = periodic_response(first.lumped.system, first.period, cycles_, periodic);
+    if (!found.converged) throw SolverError(fmt::format("no motion at {:g}: {}", options_.from, found.trouble));
+    const Eigen::VectorXd z =
+        (first.linear.mesh_vectors().transpose() * found.displacement).transpose().reshaped() / length_;
     const auto point = at_input(0, z);
     if (!point) throw SolverError(fmt::format("no motion at {:g}: {}", options_.from, trouble_));
     return *point;
@@ -214,6 +200,7 @@ class Tracer {
     Eigen::VectorXd with_input(size);
     const Equations equations{[&](const Eigen::VectorXd& u, Eigen::VectorXd& r) {
                                 r.resize(size + 1);
+                                at_ = u[size];
                                 if (u[size] < 0 || u[size] > 1) {
                                   // Beyond the range the system may not exist: a shorter step is taken.
                                   r.setConstant(not_known);
@@ -234,13 +221,8 @@ class Tracer {
                                 product.head(size) = part + v[size] * with_input;
                                 product[size] = normal.dot(v);
                               }};
-    auto tracked = equations;
-    tracked.residual = [&](const Eigen::VectorXd& u, Eigen::VectorXd& r) {
-      at_ = u[size];
-      equations.residual(u, r);
-    };
     try {
-      const auto solved = solve_newton_krylov(tracked, predicted, newton());
+      const auto solved = solve_newton_krylov(equations, predicted, newton());
       iterations_ = solved.newton_iterations;
       trouble_ = solved.trouble;
       // A far jump lands on another branch.
@@ -306,43 +288,40 @@ class Tracer {
     }
     const auto& all = multipliers_.back();
     result.multiplier = all.size() > 0 ? std::abs(all[0]) : 0;
-    constexpr double rounding = 1e-6;
-    result.stable = result.multiplier <= 1 + rounding;
+    result.stable = result.multiplier <= 1 + edge;
     branch.points.push_back(result);
     inputs_.push_back(point.input());
     arcs_.push_back(arcs_.empty() ? 0 : arcs_.back() + length_of(point.u - previous_.u));
   }
 
-  /// Multipliers outside the unit circle: real above 1, real below -1, complex.
-  static std::array<int, 3> outside(const Eigen::VectorXcd& multipliers) {
-    std::array<int, 3> count{};
-    constexpr double real = 1e-6, edge = 1e-6;
-    for (const auto& m : multipliers) {
-      if (std::abs(m) <= 1 + edge) continue;
-      if (std::abs(m.imag()) > real * std::abs(m))
-        ++count[2];
-      else
-        ++count[m.real() > 0 ? 0 : 1];
-    }
+  /// How a multiplier may pass the unit circle.
+  enum class Passing : std::size_t { plus_one, minus_one, complex };
+  static Passing kind_of(const std::complex<double>& multiplier) {
+    constexpr double real = 1e-6;
+    if (std::abs(multiplier.imag()) > real * std::abs(multiplier)) return Passing::complex;
+    return multiplier.real() > 0 ? Passing::plus_one : Passing::minus_one;
+  }
+  /// Numbers of multipliers outside the unit circle, by their kinds.
+  using Outside = std::array<int, 3>;
+  static int of(const Outside& outside, Passing kind) { return outside.at(static_cast<std::size_t>(kind)); }
+  static Outside outside(const Eigen::VectorXcd& multipliers) {
+    Outside count{};
+    for (const auto& m : multipliers)
+      if (std::abs(m) > 1 + edge) ++count.at(static_cast<std::size_t>(kind_of(m)));
     return count;
   }
 
-  /// Of the multipliers of a kind the one that passes the unit circle first: real above zero, real below, complex.
-  static double extreme(const Eigen::VectorXcd& multipliers, int kind) {
-    double largest = 0;
-    constexpr double real = 1e-6;
-    for (const auto& m : multipliers) {
-      const bool complex = std::abs(m.imag()) > real * std::abs(m);
-      if (kind == 2 ? complex : !complex && (m.real() > 0) == (kind == 0)) largest = std::max(largest, std::abs(m));
-    }
-    return largest;
-  }
-
-  /// Where that passes, linearly between the last two points, with half the distance as error; all of it where the
-  /// multiplier on one side is not of this kind.
-  [[nodiscard]] std::pair<double, double> passing(int kind) const {
+  /// Where a multiplier of this kind passes, linearly between the last two points, with half the distance as error; all
+  /// of it where there is none of this kind on one side.
+  [[nodiscard]] std::pair<double, double> passing(Passing kind) const {
     const std::size_t n = inputs_.size();
-    const double x = extreme(multipliers_[n - 2], kind) - 1, y = extreme(multipliers_[n - 1], kind) - 1;
+    const auto beyond = [&](const Eigen::VectorXcd& multipliers) {
+      double largest = 0;
+      for (const auto& m : multipliers)
+        if (kind_of(m) == kind) largest = std::max(largest, std::abs(m));
+      return largest - 1;
+    };
+    const double x = beyond(multipliers_[n - 2]), y = beyond(multipliers_[n - 1]);
     const double distance = std::abs(range_ * (inputs_[n - 1] - inputs_[n - 2]));
     const bool known = x * y < 0 && std::min(x, y) > -1;
     const double share = known ? x / (x - y) : 0.5;
@@ -358,16 +337,16 @@ class Tracer {
     }
     if (n < 2) return;
     const auto before = outside(multipliers_[n - 2]), now = outside(multipliers_[n - 1]);
-    const auto all = [](const std::array<int, 3>& count) { return count[0] + count[1] + count[2]; };
-    // Multipliers outside the unit circle may meet and part: stability does not change then.
-    if (all(before) != all(now)) {
-      const auto add_event = [&](BranchEvent::Kind kind, int of) {
-        const auto [input, error] = passing(of);
-        branch.events.push_back({kind, input, error, n - 2});
+    const auto changes = [&](Passing kind) { return of(before, kind) != of(now, kind); };
+    // Multipliers outside the unit circle may meet and part: their number does not change then.
+    if (std::accumulate(before.begin(), before.end(), 0) != std::accumulate(now.begin(), now.end(), 0)) {
+      const auto add_event = [&](BranchEvent::Kind event, Passing kind) {
+        const auto [input, error] = passing(kind);
+        branch.events.push_back({event, input, error, n - 2});
       };
-      if (before[1] != now[1]) add_event(BranchEvent::Kind::period_doubling, 1);
-      if (before[2] != now[2]) add_event(BranchEvent::Kind::neimark_sacker, 2);
-      if (before[0] != now[0]) unexplained_.push_back(n - 1);
+      if (changes(Passing::minus_one)) add_event(BranchEvent::Kind::period_doubling, Passing::minus_one);
+      if (changes(Passing::complex)) add_event(BranchEvent::Kind::neimark_sacker, Passing::complex);
+      if (changes(Passing::plus_one)) unexplained_.push_back(n - 1);
     }
     add_branchings(branch, n);
   }
@@ -410,6 +389,7 @@ class Tracer {
   Point previous_, last_;
   std::vector<double> inputs_, arcs_;
   std::vector<Eigen::VectorXcd> multipliers_;
+  static constexpr double edge = 1e-6;        // of the unit circle: rounding of multipliers
   static constexpr std::size_t close_by = 2;  // points
   std::vector<std::size_t> unexplained_;      // points before which a multiplier passed +1, without a fold so far
 };

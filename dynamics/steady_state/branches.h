@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <string>
 #include <vector>
@@ -30,7 +29,7 @@ struct BranchEvent {
     branching         ///< a multiplier passes +1 without a fold: another motion of the same period crosses
   };
   Kind kind = Kind::fold;
-  double input = 0, error = 0;  ///< error: interpolation along the branch, and difference to half the samples (folds)
+  double input = 0, error = 0;  ///< error: interpolation along the branch; of folds see branches_between()
   std::size_t before = 0;       ///< the point in front of it
 };
 [[nodiscard]] const char* to_string(BranchEvent::Kind kind);
@@ -44,10 +43,6 @@ struct Branch {
 struct BranchOptions {
   double from = 0, to = 0;     ///< of the input; the branch begins at `from`
   int samples_per_cycle = 64;  ///< a multiple of 8
-  int period_multiple = 1;     ///< periods of the excitation after which the motions repeat
-  /// Start near a motion of the case at `from`: approaches of its meshes over its period, m, samples x meshes. Empty:
-  /// the harmonic balance without a guess.
-  Eigen::MatrixXd start{};
   int max_points = 1000;
   double max_step = 0.02;  ///< along the branch: of the range of the input, and of five static deflections
 };

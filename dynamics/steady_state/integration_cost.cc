@@ -6,10 +6,12 @@
 #include <numbers>
 #include <variant>
 
+#include "core/errors.h"
 #include "core/floating_point.h"
 #include "dynamics/modes/modes.h"
 #include "dynamics/steady_state/periodic_solution.h"
 #include "dynamics/steady_state/piecewise_response.h"
+#include "dynamics/steady_state/reach_of_backlash.h"
 #include "dynamics/time_integration/integrator_choice.h"
 
 namespace annulus::dynamics {
@@ -100,11 +102,8 @@ double searched_cycles(const LumpedSystem& system, double mesh_frequency, int pe
   } catch (const InputError&) {  // the run says what is wrong
     return 0;
   }
-  // Until twelve periods repeat (measured on spur pairs and stages: 24 to 100), and no more than the search takes.
-  constexpr double periods = 60, most_seconds = 10;
-  const double of_start = integration_seconds(system, mesh_frequency, periods * period, options.integrator);
-  const double starts = std::min<double>(options.other_motions.starts, most_seconds / of_start);
-  return (starts + 1) * periods * period;
+  const int starts = affordable_starts(system, problem, options.integrator, options.other_motions.starts);
+  return starts == 0 ? 0 : (starts + 1.0) * periods_of_a_start * period;
 }
 
 }  // namespace

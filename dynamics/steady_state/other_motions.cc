@@ -3,44 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
-#include <cstdint>
-#include <limits>
-#include <numbers>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "core/errors.h"
-#include "core/floating_point.h"
 #include "core/parallel.h"
-#include "dynamics/modes/modes.h"
-#include "dynamics/statics/static_solver.h"
-#include "dynamics/statistics/sampling.h"
-#include "dynamics/steady_state/frequency_response.h"
-#include "dynamics/steady_state/real_transform.h"
+#include "dynamics/steady_state/integration_cost.h"
+#include "dynamics/steady_state/random_starts.h"
+#include "dynamics/steady_state/reach_of_backlash.h"
 #include "dynamics/steady_state/response_run.h"
-#include "dynamics/steady_state/sampled_meshes.h"
 #include "dynamics/steady_state/steady_response.h"
 
 namespace annulus::dynamics {
 
 namespace {
-
-/// Half the backlash of a mesh, of its face where it is spread over one; absent: flanks pull as well.
-std::optional<double> half_backlash(const LumpedSystem& system, int mesh) {
-  for (const auto& face : system.faces())
-    if (face.approach == mesh) return face.half_backlash;
-  return system.meshes()[static_cast<std::size_t>(mesh)].half_backlash;
-}
-
-/// The meshes that can lose contact.
-std::vector<int> meshes_with_backlash(const LumpedSystem& system) {
-  std::vector<int> list;
-  for (int m = 0; m < static_cast<int>(system.meshes().size()); ++m)
-    if (system.is_whole_mesh(m) && half_backlash(system, m).value_or(0) > 0) list.push_back(m);
-  return list;
-}
 
 constexpr int block = 12;  ///< periods: whole ones of 1, 2, 3, 4, 6 and 12
 constexpr int force_samples = 64;
@@ -79,19 +54,19 @@ class Follower {
     run.start_from(start.q, start.v);
     Followed result;
     std::vector<double> changes;
+    Block before;
     for (int i = 0; i < most_blocks && !result.decided; ++i) {
       Block now = advanced(run);
       if (i > 0) changes.push_back(difference(now, result.last, 0));
       // A motion may pass close to an unstable one: one agreement is none.
       result.decided = changes.size() > 2 && settled(changes, 0, scale(now)) && settled(changes, 1, scale(now));
-      result.last = std::move(now);
+      before = std::exchange(result.last, std::move(now));
     }
     result.state = run.state();
     result.state.time = 0;
-    if (result.decided)
-      result.period = period_of(result.last);
-    else
-      result.decided = keeps_changing(changes, scale(result.last)) && parts(result.state);
+    result.period = result.decided ? period_of(result.last) : rare_period(before, result.last);
+    if (result.period == 0) result.decided = keeps_changing(changes, scale(result.last)) && parts(result.state);
+    if (result.period > 0) result.decided = true;
     return result;
   }
 
@@ -159,6 +134,18 @@ class Follower {
     return block;
   }
 
+  /// Periods that do not divide twelve, of a motion that has settled to one before the last two blocks; 0: none.
+  [[nodiscard]] int rare_period(const Block& before, const Block& last) const {
+    Eigen::MatrixXd forces(2 * last.high.rows(), 2 * block);
+    forces << before.high, last.high, before.low, last.low;
+    for (const int period : {5, 7, 8, 9, 10, 11}) {
+      const Eigen::Index compared = 2 * block - period;
+      if ((forces.rightCols(compared) - forces.leftCols(compared)).cwiseAbs().maxCoeff() <= still * scale(last))
+        return period;
+    }
+    return 0;
+  }
+
   /// Irregular motions change as much late as they did before; vibrations that die out slowly change less and less.
   static bool keeps_changing(const std::vector<double>& changes, double scale) {
     constexpr double less = 0.8, matters = 0.05;
@@ -189,134 +176,16 @@ class Follower {
   std::vector<int> meshes_;
 };
 
-/// Draws states about the static equilibrium.
-class Starts {
- public:
-  Starts(const LumpedSystem& system, const SteadyProblem& problem, double size)
-      : system_(system), size_(size), deflection_(problem.force_scale / problem.stiffness) {
-    StaticSolver solver(system);
-    auto workspace = system.workspace();
-    equilibrium_ = solver.solve(0, workspace);
-    double rates = 0, meshes = 0;
-    for (int m = 0; m < static_cast<int>(workspace.force.size()); ++m) {
-      if (!system.is_whole_mesh(m)) continue;
-      const auto i = static_cast<std::size_t>(m);
-      deflection_ = std::max(deflection_, std::abs(workspace.force[i]) / workspace.stiffness[i]);
-      const Eigen::VectorXd b = system.mesh_vector(m);
-      rates += std::sqrt(workspace.stiffness[i] * b.dot(system.mass().llt().solve(b)));
-      ++meshes;
-    }
-    rate_ = std::max(2 * std::numbers::pi * problem.mesh_frequency, rates / meshes);
-    for (const auto& mode : modes(system, mean_stiffnesses(system)).modes)
-      if (mode.frequency == 0) rigid_.push_back(mode.shape);
-  }
-
-  [[nodiscard]] SystemState draw(std::uint64_t start) const {
-    const double size = size_ * deflection_;
-    return {0, equilibrium_ + size * random_vector(start, " displacement"),
-            size * rate_ * random_vector(start, " velocity"), 0, 0};
-  }
-  /// The same state a little beside.
-  [[nodiscard]] SystemState beside(SystemState state) const {
-    constexpr double little = 0.01;
-    state.time = 0;
-    state.q += little * deflection_ * random_vector(0, " displacement");
-    return state;
-  }
-
- private:
-  /// Entries within -1 ... 1, rigid motions taken out: they would turn the system at another speed.
-  [[nodiscard]] Eigen::VectorXd random_vector(std::uint64_t start, const char* quantity) const {
-    constexpr std::uint64_t seed = 1;
-    Eigen::VectorXd v(system_.dofs());
-    for (int i = 0; i < system_.dofs(); ++i)
-      v[i] = 2 * uniform_draw(seed, start, system_.names()[static_cast<std::size_t>(i)] + quantity) - 1;
-    for (const auto& nu : rigid_) v -= nu * nu.dot(system_.mass() * v);
-    return v;
-  }
-
-  const LumpedSystem& system_;
-  double size_, deflection_, rate_ = 0;
-  Eigen::VectorXd equilibrium_;
-  std::vector<Eigen::VectorXd> rigid_;
-};
-
 }  // namespace
 
-namespace {
-
-double bound_over_deflection(const LumpedSystem& system, const SteadyProblem& problem, const std::vector<int>& meshes) {
-  const auto count = static_cast<Eigen::Index>(system.meshes().size());
-  const int cycles = std::min(problem.period_in_cycles, longest_searched_period);
-  const double period = cycles / problem.mesh_frequency;
-  constexpr int most_positions = 400, per_cycle = 16;
-  const int positions = std::min(per_cycle * cycles, most_positions);
-  const auto path = static_path(system, Eigen::VectorXd::LinSpaced(positions, 0, period * (positions - 1) / positions));
-  StaticSolver solver(system);
-  auto workspace = system.workspace();
-  (void)solver.solve(0, workspace);
-  const Eigen::VectorXd deflection = Eigen::Map<const Eigen::VectorXd>(workspace.delta.data(), count);
-  SampledMeshes sampled(system, period, static_cast<Eigen::Index>(cycles) * force_samples);
-  Eigen::MatrixXd approach, rate, forces;
-  sampled.at_deflection(deflection, approach, rate);
-  approach = approach.colwise().mean().replicate(approach.rows(), 1).eval();
-  sampled.evaluate(approach, Eigen::MatrixXd::Zero(rate.rows(), rate.cols()), forces);
-  Eigen::VectorXd tangent = sampled.tangent().colwise().mean();
-  for (Eigen::Index m = 0; m < count; ++m)
-    if (!(tangent[m] > 0)) tangent[m] = mean_stiffness(system.meshes()[static_cast<std::size_t>(m)].excitation);
-  const FrequencyResponse linear(system, tangent);
-  // Harmonics of the forces, each at the natural frequencies that a change of the speed by a factor of three brings it
-  // to.
-  const Eigen::Index samples = forces.rows();
-  const RealTransform transform(static_cast<int>(samples));
-  Eigen::MatrixXcd lines(samples / 2 + 1, count);
-  for (Eigen::Index m = 0; m < count; ++m) transform.forward(forces.col(m).data(), lines.col(m).data());
-  lines *= 2.0 / static_cast<double>(samples);
-  constexpr double lowest = 0.3, highest = 3;
-  Eigen::VectorXd bound = Eigen::VectorXd::Zero(count);
-  for (const auto& mode : modes(system, tangent).modes) {
-    if (mode.frequency == 0) continue;
-    const Eigen::MatrixXd at = linear.mesh_transfer(2 * std::numbers::pi * mode.frequency, 1);
-    const Eigen::MatrixXcd transfer = at.leftCols(count) + std::complex<double>(0, 1) * at.rightCols(count);
-    const double line = mode.frequency * period;
-    const auto first = static_cast<Eigen::Index>(std::max(1.0, std::ceil(lowest * line)));
-    const auto last = static_cast<Eigen::Index>(std::min(static_cast<double>(samples / 2 - 1), highest * line));
-    for (Eigen::Index h = first; h <= last; ++h)
-      bound = bound.cwiseMax((transfer * lines.row(h).transpose()).cwiseAbs());
-  }
-  double reach = 0;
-  for (const int m : meshes) {
-    const double smallest = path.force.row(m).cwiseAbs().minCoeff();
-    constexpr double nothing = 1e-6;
-    const double here = smallest > nothing * problem.force_scale ? bound[m] * tangent[m] / smallest
-                                                                 : std::numeric_limits<double>::infinity();
-    if (std::isnan(here)) return std::numeric_limits<double>::infinity();
-    reach = std::max(reach, here);
-  }
-  return reach;
-}
-
-}  // namespace
-
-double reach_of_backlash(const LumpedSystem& system, const SteadyProblem& problem) {
-  const auto meshes = meshes_with_backlash(system);
-  if (meshes.empty()) return 0;
-  const UntrappedFloatingPoint untrapped;  // the response of undamped systems is not bounded
-  try {
-    return bound_over_deflection(system, problem, meshes);
-  } catch (const SolverError&) {
-    return std::numeric_limits<double>::infinity();
-  }
-}
-
-StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& problem, const SystemState& present,
-                             bool steady, const IntegratorOptions& integrator, const MotionSearch& search) {
+StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& problem, const SteadyOutcome& present,
+                             const IntegratorOptions& integrator, const MotionSearch& search) {
   const Follower follower(system, problem, integrator);
-  const Starts starts(system, problem, search.size);
+  const RandomStarts starts(system, problem, search.size);
   std::vector<Followed> followed(static_cast<std::size_t>(search.starts) + 1);
   for_each_task(followed.size(), search.threads, [&](std::size_t i) {
     try {
-      followed[i] = follower.follow(i == 0 ? starts.beside(present) : starts.draw(i));
+      followed[i] = follower.follow(i == 0 ? starts.beside(present.begin) : starts.draw(i));
     } catch (const SolverError&) {  // one start that the integrator cannot follow is not decided
       followed[i].decided = false;
     }
@@ -328,7 +197,7 @@ StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& pr
     const auto& f = followed[i];
     if (!f.decided) {
       // A steady motion is one, however slowly the rest of its vibrations dies out.
-      const bool known = i == 0 && steady && f.last.high.size() > 0;
+      const bool known = i == 0 && present.steady && f.last.high.size() > 0;
       if (i > 0) ++result.found.undecided;
       if (!known) continue;
       followed[i].period = 1;
@@ -360,6 +229,16 @@ StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& pr
   }
   result.found.list = std::move(sorted);
   return result;
+}
+
+int affordable_starts(const LumpedSystem& system, const SteadyProblem& problem, const IntegratorOptions& integrator,
+                      int wanted) {
+  constexpr double most_seconds = 10;
+  constexpr int fewest = 4;
+  const double of_start =
+      integration_seconds(system, problem.mesh_frequency, periods_of_a_start * problem.period_in_cycles, integrator);
+  const int starts = static_cast<int>(std::min<double>(wanted, most_seconds / of_start));
+  return starts < std::min(fewest, wanted) ? 0 : starts;
 }
 
 }  // namespace annulus::dynamics

@@ -10,6 +10,7 @@
 namespace annulus::dynamics {
 
 struct SteadyProblem;
+struct SteadyOutcome;
 
 /// How other motions of the same system are looked for: backlash and load together may allow several.
 struct MotionSearch {
@@ -17,9 +18,7 @@ struct MotionSearch {
   /// s)^starts. 0: none are tried.
   int starts = 0;
   int threads = 1;
-  /// Within this many static mesh deflections of the equilibrium in every DOF, with velocities as of a vibration of
-  /// that size at the higher one of mesh frequency and mean natural frequency of a mesh by itself.
-  double size = 3;
+  double size = 3;  ///< static mesh deflections, see RandomStarts
 };
 
 /// A stable steady motion.
@@ -33,20 +32,12 @@ struct FoundMotion {
 
 struct FoundMotions {
   double reach = not_known;         ///< reach_of_backlash(); not known where motions were not looked for
-  int starts = 0;                   ///< random initial conditions that were tried; 0: none
+  int wanted = 0;                   ///< random initial conditions that were asked for
+  int starts = 0;                   ///< those that were tried; 0: none
   std::string not_tried{};          ///< why none were, although backlash is within reach
   std::vector<FoundMotion> list{};  ///< the largest force first; empty where none were tried
   int undecided = 0;                ///< starts whose vibrations had not died out in the end, or could not be integrated
 };
-
-/// Bound of the vibration over the smallest static deflection of a mesh beyond its backlash, the largest of all meshes
-/// with backlash; 0 without backlash, infinite where a mesh carries nothing at some time without any vibration, or
-/// where no bound is found. The bound takes every harmonic of the forces that stiffness and errors exert at constant
-/// approach at the natural frequencies of the system with mean stiffness from a third to three times its own. Mesh
-/// vectors that move are taken at time 0. Near and above 1 teeth may lose contact, and several motions may exist.
-[[nodiscard]] double reach_of_backlash(const LumpedSystem& system, const SteadyProblem& problem);
-/// From this bound on other motions are looked for; spur pairs that have several reach it (test).
-inline constexpr double within_reach = 0.5;
 
 /// Stable motions of a system whose excitation repeats after the period of the problem, with the state of each at the
 /// start of a period.
@@ -54,16 +45,23 @@ struct StableMotions {
   FoundMotions found;
   std::vector<SystemState> states{};  ///< in the order of found.list, at time 0
 };
-/// Follows `present` (a state at time 0 of a motion that is known, or the end of a motion that is not steady), moved by
-/// a hundredth of the static deflection, then the random starts, in time until 12 periods of the excitation repeat
-/// twice. Two motions are the same when forces (relative to the largest) and loss of contact of their meshes differ by
-/// less than 2 %; meshes may change places. A motion that does not repeat is irregular where two of its states that are
-/// close to each other part; all irregular motions count as one. Others are undecided. `taken` marks the motion to
-/// which `present` leads; where it is `steady`, that is a motion in any case. The integrator needs its absolute
-/// tolerance.
+/// Follows the motion that `present` begins with, moved by a hundredth of the static deflection, then the random
+/// starts, in time until 12 periods of the excitation repeat twice, or to the end, where other periods below 12 are
+/// looked for. Two motions are the same when forces (relative to
+/// the largest) and loss of contact of their meshes differ by less than 2 %; meshes may change places. A motion that
+/// does not repeat is irregular where two of its states that are close to each other part; all irregular motions count
+/// as one. Others are undecided. `taken` marks the motion to which `present` leads; a steady one is a motion in any
+/// case. The integrator needs its absolute tolerance.
 [[nodiscard]] StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& problem,
-                                           const SystemState& present, bool steady, const IntegratorOptions& integrator,
+                                           const SteadyOutcome& present, const IntegratorOptions& integrator,
                                            const MotionSearch& search);
+
+/// As many of the wanted starts as some ten seconds of processor time allow by the cost law, which is the same on every
+/// machine; 0 where these are fewer than four.
+[[nodiscard]] int affordable_starts(const LumpedSystem& system, const SteadyProblem& problem,
+                                    const IntegratorOptions& integrator, int wanted);
+/// Periods of the excitation until a start is decided, on average: from 48 to 288.
+inline constexpr int periods_of_a_start = 80;
 
 /// Longest period, mesh cycles, for which motions are looked for.
 inline constexpr int longest_searched_period = 200;

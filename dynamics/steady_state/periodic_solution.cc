@@ -9,9 +9,10 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "dynamics/modes/dense_spectrum.h"
 #include "dynamics/modes/modes.h"
+#include "dynamics/steady_state/floquet.h"
 #include "dynamics/steady_state/piecewise_response.h"
+#include "dynamics/steady_state/sampled_meshes.h"
 
 namespace annulus::dynamics {
 
@@ -108,43 +109,22 @@ PeriodicSearch solve_harmonic_balance(const LumpedSystem& system, const SteadyPr
   return search;
 }
 
-/// Largest modulus of the Floquet multipliers of one mesh cycle about a periodic motion without loss of contact. Above
-/// 1 small disturbances grow (parametric resonance), below 1 they die out.
-///
-/// The tangents at the samples of the first cycle of the window are taken as constant around each sample. Undamped
-/// motions stay at 1 to rounding; limits of resonances are accurate to the second order of the spacing. Throws
-/// SolverError when the eigenvalue solver fails.
+/// Largest modulus of the Floquet multipliers of one mesh cycle, the first one of the window, about a periodic motion
+/// without loss of contact. Above 1 small disturbances grow (parametric resonance), below 1 they die out. Undamped
+/// motions stay at 1 to rounding.
 double growth_per_cycle(const LumpedSystem& system, double mesh_frequency, const ResponseWindow& window) {
-  const Eigen::Index n = system.dofs();
-  require(window.samples_per_cycle > 0 && window.displacement.cols() >= window.samples_per_cycle,
-          fmt::format("a window of {} samples must hold a mesh cycle of {}", window.displacement.cols(),
-                      window.samples_per_cycle));
-  const Eigen::MatrixXd b = system.mesh_vectors(), fixed = system.stiffness() + system.rotating_stiffness();
+  const Eigen::Index samples = window.samples_per_cycle;
+  require(samples > 0 && window.displacement.cols() >= samples,
+          fmt::format("a window of {} samples must hold a mesh cycle of {}", window.displacement.cols(), samples));
+  const Eigen::MatrixXd b = system.mesh_vectors();
+  SampledMeshes meshes(system, 1 / mesh_frequency, samples);
+  Eigen::MatrixXd force;
+  meshes.evaluate(window.displacement.leftCols(samples).transpose() * b,
+                  window.velocity.leftCols(samples).transpose() * b, force);
   const Eigen::VectorXd mean = mean_stiffnesses(system);
-  const Modes found = modes(system, mean);
-  const Eigen::MatrixXd shapes = found.shapes();
-  // Rigid displacements act on nothing. Included, they would make a multiplier of one defective, which rounding splits
-  // by its root.
-  const Eigen::Index free = neutral_motions(found, fixed + b * mean.asDiagonal() * b.transpose(), system.mass());
-  const Eigen::Index elastic = n - free;
-  const auto bent = shapes.rightCols(elastic);
-  const double w = std::max(2 * std::numbers::pi * found.modes.back().frequency, mesh_frequency);
-  // Elastic displacements and all velocities / w: entries of like size.
-  Eigen::MatrixXd tangent(b.cols(), b.cols()), state = Eigen::MatrixXd::Zero(elastic + n, elastic + n),
-                                               map = Eigen::MatrixXd::Identity(elastic + n, elastic + n);
-  state.topRightCorner(elastic, elastic).setIdentity();
-  state.bottomRightCorner(n, n) =
-      -shapes.transpose() * (system.damping_with_meshes() + system.gyroscopic()) * shapes / w;
-  auto workspace = system.workspace();
-  for (int i = 0; i < window.samples_per_cycle; ++i) {
-    const Eigen::VectorXd q = window.displacement.col(i), v = window.velocity.col(i);
-    system.detect_contact(window.time[i], q.data(), workspace);
-    system.evaluate_meshes(window.time[i], q.data(), v.data(), workspace);
-    system.tangent_matrix(workspace, tangent);
-    state.bottomLeftCorner(n, elastic) = -shapes.transpose() * (fixed + b * tangent * b.transpose()) * bent / (w * w);
-    map = exponential(state * (w / (mesh_frequency * window.samples_per_cycle))) * map;
-  }
-  const double growth = eigenvalues(map, "the Floquet multipliers").cwiseAbs().maxCoeff();
+  const Eigen::VectorXcd multipliers = floquet_multipliers(system, mean, meshes, 1 / mesh_frequency);
+  const double growth = multipliers.size() > 0 ? std::abs(multipliers[0]) : 0;
+  const double w = 2 * std::numbers::pi * modes(system, mean).modes.back().frequency;
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * (1 + w / mesh_frequency);
   return growth <= 1 + rounding ? std::min(growth, 1.0) : growth;
 }

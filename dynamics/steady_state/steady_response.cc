@@ -11,8 +11,8 @@
 #include "core/errors.h"
 #include "core/log.h"
 #include "dynamics/modes/modes.h"
-#include "dynamics/steady_state/integration_cost.h"
 #include "dynamics/steady_state/periodic_solution.h"
+#include "dynamics/steady_state/reach_of_backlash.h"
 #include "dynamics/steady_state/window_integration.h"
 
 namespace annulus::dynamics {
@@ -269,20 +269,16 @@ void look_for_other_motions(const LumpedSystem& system, const SteadyProblem& pro
     integrator.relative_tolerance = loose;
     *integrator.absolute_tolerance *= factor;
   }
-  // As many starts as some ten seconds of processor time allow, by the cost law: the same on every machine.
-  constexpr double most_seconds = 10, periods = 80;
-  constexpr int fewest = 4;
-  const double of_start =
-      integration_seconds(system, problem.mesh_frequency, periods * problem.period_in_cycles, integrator);
   auto search = options.other_motions;
-  search.starts = static_cast<int>(std::min<double>(search.starts, most_seconds / of_start));
-  if (search.starts < std::min(fewest, options.other_motions.starts)) {
-    response.motions.not_tried = fmt::format("to follow {} of them would take some {:.0f} s",
-                                             options.other_motions.starts, of_start * options.other_motions.starts);
+  search.starts = affordable_starts(system, problem, integrator, search.starts);
+  if (search.starts == 0) {
+    response.motions.not_tried = fmt::format("its period of {} mesh cycles takes too long to follow {} starts",
+                                             problem.period_in_cycles, options.other_motions.starts);
     return;
   }
-  auto [found, states] = stable_motions(system, problem, response.begin, response.steady, integrator, search);
+  auto [found, states] = stable_motions(system, problem, response, integrator, search);
   found.reach = response.motions.reach;
+  found.wanted = options.other_motions.starts;
   const auto largest_force = [&](const ResponseWindow& window) {
     double largest = 0;
     for (Eigen::Index m = 0; m < window.force.rows(); ++m)

@@ -80,7 +80,7 @@ struct SimulationOptions {
   int max_window_cycles = 2000;
   /// Integrates the last window again with a tolerance ten times looser, which estimates the error of the integrator.
   bool estimate_error = true;
-  MotionSearch other_motions;  ///< looked for where reach_of_backlash() is `within_reach` or more
+  MotionSearch other_motions;  ///< looked for where reach_of_backlash() exceeds `within_reach`
 
   /// Sets the tolerance of the integrator. Windows of a loose integration repeat to some of its step errors only, so
   /// `steady_tolerance` is raised to at least ten times this value.

@@ -10,6 +10,7 @@
 #include "core/json.h"
 #include "tests/app/run_program.h"
 #include "tests/app/scenes.h"
+#include "tests/app/two_k_v_scenes.h"
 #include "tests/temporary_folder.h"
 
 /// Runs and sweeps where several motions exist.
@@ -134,6 +135,19 @@ BOOST_AUTO_TEST_CASE(sweeps_run_up_and_down_and_trace_branches) {
   // A second run computes nothing again.
   const auto again = test::run_program(folder.path(), "run scene.toml --out out");
   BOOST_TEST(again.out.find("reused") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(directions_that_a_kind_does_not_offer_are_refused_by_check) {
+  const test::TemporaryFolder folder("motions_3");
+  write_file(folder.path() / "reducer.toml", test::reducer_scene() +
+                                                 "[[sweep]]\ninput = \"dynamics.mesh_damping_ratio\"\nvalues = [0.05, "
+                                                 "0.1]\ndirection = \"branches\"\n");
+  const auto refused = test::run_program(folder.path(), "check reducer.toml");
+  BOOST_TEST(refused.status != 0);
+  BOOST_TEST(
+      refused.err.find("sweep.direction = \"branches\" is not offered for stages of kind two_k_v; use \"both\"") !=
+          std::string::npos,
+      refused.err);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

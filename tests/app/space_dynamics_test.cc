@@ -55,6 +55,14 @@ bool warns(const Json& summary, const std::string& code) {
   return false;
 }
 
+void compare_sharing(test::Verification& record, const std::string& title, const Json& summary, const Json& statics,
+                     double tolerance, const std::string& origin) {
+  for (const std::string mesh : {"sun_planet", "ring_planet"})
+    record.close(title, "",
+                 summary.at("rings").at("held").at("load_sharing").at(mesh).at("averaged").at("value").get<double>(),
+                 result(statics, mesh + "_static_load_sharing"), tolerance, origin);
+}
+
 // At a low speed the motion is the equilibrium: load sharing and the place of the forces are those of annulus statics,
 // which solves for them with another formulation.
 BOOST_AUTO_TEST_CASE(slow_stage_shares_the_load_as_in_the_statics) {
@@ -63,10 +71,7 @@ BOOST_AUTO_TEST_CASE(slow_stage_shares_the_load_as_in_the_statics) {
   const auto scene = moving_stage(bearings() + inertias);
   const auto summary = run(folder, scene);
   const auto statics = solved(folder, scene);
-  for (const std::string mesh : {"sun_planet", "ring_planet"})
-    record.close("load sharing of a stage with a pin beside its place", "",
-                 summary.at("rings").at("held").at("load_sharing").at(mesh).at("averaged").at("value").get<double>(),
-                 result(statics, mesh + "_static_load_sharing"), 1e-3, "inertia");
+  compare_sharing(record, "load sharing of a stage with a pin beside its place", summary, statics, 1e-3, "inertia");
   const auto forces = table(folder, "mesh_forces.csv");
   for (const std::string mesh : {"sun_planet1", "sun_planet2", "ring_planet3"})
     record.near("place of the mesh force along the face", "m",
@@ -96,10 +101,8 @@ BOOST_AUTO_TEST_CASE(slow_stage_turns_past_its_loads_as_in_the_statics) {
   scene = test::replaced(scene, "sun_speed_rpm = 100", "sun_speed_rpm = 10");
   const auto summary = run(folder, scene);
   const auto statics = solved(folder, scene);
-  for (const std::string mesh : {"sun_planet", "ring_planet"})
-    record.close("load sharing over a revolution of the carrier", "",
-                 summary.at("rings").at("held").at("load_sharing").at(mesh).at("averaged").at("value").get<double>(),
-                 result(statics, mesh + "_static_load_sharing"), 2e-3, "inertia; positions of the statics");
+  compare_sharing(record, "load sharing over a revolution of the carrier", summary, statics, 2e-3,
+                  "inertia; positions of the statics");
   // Without them it is another.
   auto unloaded = scene.substr(0, scene.find("[gravity]"));
   const auto without = solved(folder, unloaded);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <numbers>
 #include <numeric>
 #include <set>
 #include <string>
@@ -109,7 +110,7 @@ constexpr int bolts = 3;
 
 struct Options {
   std::vector<double> positions{7.25, 9.5};  ///< mesh cycles
-  bool same_mesh = false;
+  bool same_mesh = false, rigid_phase = false;
   double contact_stiffness = 2e16;
   double reach = 0.35e-3;  ///< m
   int threads = 2;
@@ -146,7 +147,7 @@ Place place_at(const PlanetarySet& set, double cycles) {
     const double direction = ring.pitch_angle() * ring_position + half(ring, ring_angle);
     const double turned = cycles - set.sun_phase_lag(n);
     if (n == 0) place.sun_angle = direction - half(sun, sun_angle) + sun.pitch_angle() * cycles;
-    const double angle = direction + M_PI - half(planet, sun_angle) - planet.pitch_angle() * turned;
+    const double angle = direction + std::numbers::pi - half(planet, sun_angle) - planet.pitch_angle() * turned;
     place.planet_direction.push_back(direction);
     place.planet_angle.push_back(angle);
     const Eigen::Vector2d axis = Eigen::Rotation2Dd(direction) * Eigen::Vector2d(set.centre_distance(), 0);
@@ -163,9 +164,10 @@ Place place_at(const PlanetarySet& set, double cycles) {
         pair.planet = n;
         pair.with_ring = with_ring;
         pair.planet_tooth = tooth(turned - passed - (with_ring ? set.cycles_from_sun_to_ring() : 0), planet.teeth());
-        pair.wheel_tooth = with_ring
-                               ? tooth(ring_position - passed, ring.teeth())
-                               : tooth(passed - cycles + sun.teeth() * set.planet_angle(n) / (2 * M_PI), sun.teeth());
+        pair.wheel_tooth =
+            with_ring
+                ? tooth(ring_position - passed, ring.teeth())
+                : tooth(passed - cycles + sun.teeth() * set.planet_angle(n) / (2 * std::numbers::pi), sun.teeth());
         Eigen::Vector2d point =
             planet_profile.flank_point(std::clamp(roll, mesh.roll_length_low(), mesh.roll_length_high()));
         if (with_ring) point.y() = -point.y();
@@ -269,10 +271,12 @@ bool compare(const app::Scene& scene, const app::RingGeometry& ring, const app::
   const auto &free = position_at(straight, cycles), &loaded = position_at(displaced, cycles);
   const auto guess = rotations(free);
   // annulus counts the mesh cycle by the rigid gears, CalculiX sees the teeth where the load has moved them.
-  const double shift = (ahead(ring.set, guess) + ahead(ring.set, rotations(loaded))) / 2;
+  const double moved = (ahead(ring.set, guess) + ahead(ring.set, rotations(loaded))) / 2;
+  fmt::print("position {:.4f}: the load has moved the contacts by {:.4f} mesh cycles\n", cycles, moved);
+  const double shift = options.rigid_phase ? 0 : moved;
   auto job = stage_job(scene, ring, cycles - shift, options);
   std::vector<Eigen::Vector2d> errors(job.planets.size(), Eigen::Vector2d::Zero());
-  errors.front() = Eigen::Rotation2Dd(M_PI / 2) * job.planets.front().axis.normalized() * pin_error;
+  errors.front() = Eigen::Rotation2Dd(std::numbers::pi / 2) * job.planets.front().axis.normalized() * pin_error;
   job.steps = {{guess, {}}, {{}, {}}, {{}, errors}};
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("annulus_calculix_stage_{}", getpid()) /
                       fmt::format("position{:.4f}", cycles);
@@ -314,6 +318,8 @@ int main(int argc, char** argv) {
   CLI::App cli{"annulus statics against CalculiX: a whole stage in one model"};
   cli.add_option("--positions", options.positions, "mesh cycles, multiples of an eighth")->capture_default_str();
   cli.add_flag("--same-mesh", options.same_mesh, "teeth in contact have the mesh of annulus (three times the nodes)");
+  cli.add_flag("--rigid-phase", options.rigid_phase,
+               "CalculiX stands where the rigid gears do: the shares then differ");
   cli.add_option("--contact-stiffness", options.contact_stiffness, "penalty of CalculiX, Pa/m")->capture_default_str();
   cli.add_option("--threads", options.threads, "for both programs")->capture_default_str();
   cli.add_flag("--keep", options.keep, "keep CalculiX's files");

@@ -43,6 +43,17 @@ Sweep swept(SpurPair pair, double from, double to, int count) {
   return sweep;
 }
 
+/// Shooting that resolves the multipliers to some 1e-4 of the deflection.
+ShootingOptions exactly(const SpurPair& pair) {
+  ShootingOptions options;
+  options.displacement = 1e-4 * pair.deflection();
+  options.rate = pair.rate();
+  options.tolerance = 1e-6 * pair.deflection();
+  options.integrator.relative_tolerance = 1e-10;
+  options.integrator.absolute_tolerance = 1e-12 * pair.deflection();
+  return options;
+}
+
 /// The state at time 0 of the motion with this largest force, from starts all over.
 std::optional<SystemState> settled_state(const SpurPair& pair, double force) {
   for (int i = 0; i < 40; ++i) {
@@ -122,14 +133,8 @@ BOOST_AUTO_TEST_CASE(period_doubling_and_multipliers) {
     at.speed = speed;
     const auto system = at.system();
     const auto periodic = periodic_response(system, 1 / at.problem().mesh_frequency, 1, {.samples_per_cycle = 64});
-    ShootingOptions shooting;
-    shooting.displacement = 1e-3 * at.deflection();
-    shooting.rate = at.rate();
-    shooting.tolerance = 1e-6 * at.deflection();
-    shooting.integrator.relative_tolerance = 1e-10;
-    shooting.integrator.absolute_tolerance = 1e-12 * at.deflection();
     const auto found = shoot(system, 1 / at.problem().mesh_frequency,
-                             {0, periodic.displacement.col(0), periodic.velocity.col(0), 0, 0}, shooting);
+                             {0, periodic.displacement.col(0), periodic.velocity.col(0), 0, 0}, exactly(at));
     return std::abs(found.multipliers[0]);
   };
   for (const auto* event : {first, second}) {
@@ -166,13 +171,7 @@ BOOST_AUTO_TEST_CASE(multipliers_with_loss_of_contact) {
       // The stable motion with loss of contact by time integration.
       const auto settled = settled_state(at, point.largest_force / SpurPair::load);
       if (!settled) continue;
-      ShootingOptions shooting;
-      shooting.displacement = 1e-4 * at.deflection();
-      shooting.rate = at.rate();
-      shooting.tolerance = 1e-6 * at.deflection();
-      shooting.integrator.relative_tolerance = 1e-10;
-      shooting.integrator.absolute_tolerance = 1e-12 * at.deflection();
-      const auto found = shoot(system, 1 / at.problem().mesh_frequency, *settled, shooting);
+      const auto found = shoot(system, 1 / at.problem().mesh_frequency, *settled, exactly(at));
       BOOST_TEST(found.converged);
       record.near(samples == 128 ? "largest multiplier, 128 samples" : "largest multiplier, 512 samples", "",
                   point.multiplier, std::abs(found.multipliers[0]), samples == 128 ? 0.04 : 0.01,

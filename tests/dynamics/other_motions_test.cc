@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "dynamics/steady_state/reach_of_backlash.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "tests/dynamics/spur_pairs.h"
 #include "tests/verification_record.h"
@@ -26,6 +28,18 @@ BruteForce brute_force(const SpurPair& pair, double x, double v) {
   for (std::size_t i = 12; i < highest.size(); ++i)
     result.repeats = result.repeats && std::abs(highest[i] - highest[i - 12]) < 0.01 * result.largest_force;
   return result;
+}
+
+/// Periods after which the largest forces repeat, up to twelve; 0: none.
+int period_of(const std::vector<double>& highest) {
+  const double scale = *std::max_element(highest.begin(), highest.end());
+  for (std::size_t period = 1; period <= 12; ++period) {
+    bool repeats = true;
+    for (std::size_t i = period; i < highest.size(); ++i)
+      repeats = repeats && std::abs(highest[i] - highest[i - period]) < 0.01 * scale;
+    if (repeats) return static_cast<int>(period);
+  }
+  return 0;
 }
 
 // Every motion to which more than 5 % of 200 starts of a brute force lead is found, and every motion that is found
@@ -91,7 +105,7 @@ BOOST_AUTO_TEST_CASE(motions_of_a_spur_pair_by_brute_force) {
       IntegratorOptions integrator = options.integrator;
       integrator.method = Integrator::arkode_explicit;
       integrator.absolute_tolerance = 1e-7 * pair.deflection();
-      const auto again = stable_motions(system, problem, found.begin, found.steady, integrator, {.starts = 4});
+      const auto again = stable_motions(system, problem, found, integrator, {.starts = 4});
       for (std::size_t i = 0; i < again.states.size(); ++i) {
         if (again.found.list[i].period == 0) continue;
         const auto& state = again.states[i];
@@ -131,6 +145,42 @@ BOOST_AUTO_TEST_CASE(nothing_is_tried_out_of_reach) {
   BOOST_TEST(refused.motions.starts == 0);
   BOOST_TEST(refused.motions.not_tried.find("repeats after 201 mesh cycles") != std::string::npos,
              refused.motions.not_tried);
+}
+
+// Pairs that brute force finds irregular from every start, and from some. The third one has a motion that
+// repeats after nine periods.
+BOOST_AUTO_TEST_CASE(irregular_and_rare_motions_are_recognised) {
+  annulus::test::Verification record("Irregular motions of a spur pair with backlash",
+                                     "brute force: Runge-Kutta with fixed steps");
+  for (const auto& pair : {SpurPair{.zeta = 0.02, .error = 1, .half_backlash = 3, .speed = 1.5},
+                           SpurPair{.zeta = 0.02, .error = 2, .half_backlash = 8, .speed = 0.9},
+                           SpurPair{.zeta = 0.02, .ripple = 0.3, .error = 1, .half_backlash = 8, .speed = 1.8}}) {
+    constexpr int starts = 24;
+    std::map<int, int> by_period;
+    double largest = 0;
+    for (int i = 0; i < starts; ++i) {
+      double x = pair.half_backlash + 1 + 3 * std::cos(2.4 * i), v = 3 * std::sin(1.7 * i);
+      const auto highest = largest_forces(pair, x, v, 600, 120);
+      const int period = period_of(highest);
+      ++by_period[period];
+      if (period == 0) largest = std::max(largest, *std::max_element(highest.begin(), highest.end()));
+    }
+    SimulationOptions options;
+    options.other_motions.starts = starts;
+    const auto found = steady_response(pair.system(), pair.problem(), options);
+    for (const auto& [period, count] : by_period) {
+      if (6 * count < starts) continue;
+      const auto same = std::find_if(found.motions.list.begin(), found.motions.list.end(),
+                                     [p = period](const FoundMotion& motion) { return motion.period == p; });
+      BOOST_TEST_REQUIRE((same != found.motions.list.end()), "period " << period);
+      record.near("share of the starts that lead to motions of one period", "",
+                  static_cast<double>(same->starts) / starts, static_cast<double>(count) / starts, 0.3,
+                  "24 starts each, two standard deviations");
+      if (period == 0)
+        record.close("largest force of the irregular motion", "", same->largest_force / SpurPair::load, largest, 0.15,
+                     "largest of some hundred periods");
+    }
+  }
 }
 
 // Vibrations that die out slowly, or never, are no motions of their own.

@@ -20,7 +20,7 @@
 #include "dynamics/systems/planetary/space_motion.h"
 #include "dynamics/systems/planetary/stage_statics.h"
 #include "dynamics/systems/planetary/working_point.h"
-#include "tests/dynamics/spatial_stages.h"
+#include "tests/dynamics/lumped_stages.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
 
@@ -31,62 +31,9 @@ namespace units = annulus::units;
 using Eigen::Vector3d;
 using Kind = StageBody::Kind;
 using stages::bearing;
+using namespace stages::lumped_in_space;
 
 constexpr double pi = std::numbers::pi;
-
-/// All bodies give way in all directions; the same for all planets.
-void add_all_bearings(SpatialStage& s) {
-  for (int n = 0; n < s.planets(); ++n) {
-    const StageBody planet{Kind::planet, n};
-    s.bearings.push_back(bearing("upwind row", planet, {Kind::carrier}, -0.06, 2e9, 1e9, 1e5));
-    s.bearings.push_back(bearing("downwind row", planet, {Kind::carrier}, 0.07, 2.5e9, 0, 0));
-  }
-  s.bearings.push_back(bearing("upwind", {Kind::carrier}, {}, -0.35, 3e9, 1e9, 1e7));
-  s.bearings.push_back(bearing("downwind", {Kind::carrier}, {}, 0.3, 2e9, 0, 0));
-  s.bearings.push_back(bearing("spline", {Kind::sun}, {}, 0.7, 5e7, 3e8, 2e5));
-  s.bearings.push_back(bearing("trunnions", {Kind::ring}, {}, 0.05, 4e9, 2e9, 3e8));
-}
-
-constexpr double sun_stiffness = 3e9, ring_stiffness = 4e9, sun_width = 0.22, ring_width = 0.2275;
-
-/// The lumped stage of a stage in space with even faces of constant stiffness.
-PlanetaryStage lumped(SpatialStage s) {
-  auto& p = s.plane;
-  const double c2 = std::pow(std::cos(s.base_helix_angle), 2);
-  p.sun_mesh = ConstantStiffness{sun_stiffness * c2};
-  p.ring_mesh = ConstantStiffness{ring_stiffness * c2};
-  p.sun.inertia = 1.5;
-  p.planet.inertia = 2.5;
-  p.ring.inertia = 120;
-  p.carrier.inertia = 130;
-  p.space = space_about_equilibrium(s, {2.1, 90, 110, 1.9});
-  p.space->sun_face.width = sun_width;
-  p.space->ring_face.width = ring_width;
-  p.set_half_backlash(1e-3);  // back flanks far away: driving ones do not pull
-  return p;
-}
-
-struct SolvedStatics {
-  std::vector<double> force, tilt;  ///< per mesh, transverse; tilt: half a face width times the force's moment
-};
-
-SolvedStatics solved(const PlanetaryStage& stage, double t = 0) {
-  const auto system = assemble(stage);
-  StaticSolver solver(system);
-  auto workspace = system.workspace();
-  const Eigen::VectorXd start = Eigen::VectorXd::Zero(system.dofs());
-  system.detect_contact(t, start.data(), workspace);
-  (void)solver.solve(t, workspace);
-  const auto meshes = 2 * static_cast<std::ptrdiff_t>(stage.planets());
-  return {{workspace.force.begin(), workspace.force.begin() + meshes},
-          {workspace.force.begin() + meshes, workspace.force.begin() + 2 * meshes}};
-}
-
-StaticTurn statics(const SpatialStage& s, std::vector<double> cycles = {0.0}) {
-  StaticSchedule schedule;
-  schedule.cycles = std::move(cycles);
-  return solve_turn(s, schedule, 1);
-}
 
 // Without inertia the lumped system is the mechanism of the statics, which is formulated otherwise: rigid bodies in one
 // frame, holds, exact integrals along the face. Bearings with clearance bear at their working point what they do there.
@@ -145,102 +92,6 @@ BOOST_AUTO_TEST_CASE(equilibrium_is_that_of_the_statics) {
     BOOST_TEST((whole <= 0) == (which == Case::partial), static_cast<int>(which)
                                                              << ", contact of the whole face: " << whole);
   }
-}
-
-/// Weight and a rotor's loads in the housing, on a stage that turns slowly past them.
-SpatialStage loaded_in_housing(double speed) {
-  auto s = stages::reliability_stage(7.5 * units::deg);
-  s.plane.carrier_speed = speed;
-  s.gravity = {2, -9.5, 1};
-  s.weights = {{{Kind::sun}, 180, 0.1}, {{Kind::ring}, 509, 0}, {{Kind::carrier}, 1500, -0.05}};
-  for (int n = 0; n < 3; ++n) s.weights.push_back({{Kind::planet, n}, 110, 0.01});
-  add_all_bearings(s);
-  s.loads = {{"rotor", {Kind::carrier}, StageFrame::housing, {0.1, 0, -0.5}, {2e4, -3e4, 4e4}, {5e4, 2e4, 0}},
-             {"pin", {Kind::planet, 1}, StageFrame::planet, {0.02, 0, 0.05}, {1e3, 0, -1e3}, {50, 70, 0}}};
-  return s;
-}
-
-// What stands in the housing turns past the carrier: at every angle the forces are those of the statics there.
-BOOST_AUTO_TEST_CASE(standing_loads_are_those_of_the_statics_at_every_angle) {
-  annulus::test::Verification record("Standing loads of a lumped stage in space", "statics of the mechanism");
-  const std::vector<double> cycles{0, 13, 41, 77};
-  // With a pin beside its place a carrier in clearance does not stand still in the housing.
-  enum class Case { linear, clearance, clearance_and_error };
-  for (const auto& [which, tolerance, origin] :
-       {std::tuple{Case::linear, 1e-8, "residual of the equilibria"},
-        {Case::clearance, 1e-8, "residual of the equilibria"},
-        {Case::clearance_and_error, 2e-2, "stiffness of the bearings, the mean over a turn"}}) {
-    constexpr double speed = 1e-3;  // no centrifugal forces to speak of
-    auto s = loaded_in_housing(speed);
-    if (which != Case::clearance) {
-      s.plane.planet_errors.assign(3, {});
-      s.plane.planet_errors[1].position = {60e-6, 0.7};
-    }
-    if (which != Case::linear) {
-      s.loads.pop_back();
-      s.bearings[6].play = 150e-6;
-      s.bearings[7].play = 100e-6;
-    }
-    const auto expected = statics(s, cycles);
-    auto stage = lumped(s);
-    stage.rotating_frame = false;
-    BOOST_TEST(stage.error_period() == 99);
-    double change = 0;
-    for (std::size_t i = 0; i < cycles.size(); ++i) {
-      const auto found = solved(stage, cycles[i] / stage.mesh_frequency());
-      for (std::size_t m = 0; m < 6; ++m) {
-        const auto& mesh = m < 3 ? expected.positions[i].sun_meshes[m] : expected.positions[i].ring_meshes[m - 3];
-        const auto& first = m < 3 ? expected.positions[0].sun_meshes[m] : expected.positions[0].ring_meshes[m - 3];
-        const double half = (m < 3 ? sun_width : ring_width) / 2;
-        const auto name = which == Case::clearance_and_error ? ", a carrier in clearance that wanders" : "";
-        record.close(std::string("mesh forces") + name, "N", found.force[m], mesh.force, tolerance, origin);
-        record.at_most(std::string("moment along the face over force x half its width") + name, "",
-                       std::abs(found.tilt[m] * half - mesh.force * mesh.place) / (half * mesh.force), tolerance,
-                       origin);
-        change = std::max(change, std::abs(mesh.force * mesh.place - first.force * first.place) / (half * mesh.force));
-      }
-    }
-    BOOST_TEST(change > 0.02, change);  // the turn matters
-  }
-}
-
-// Harmonic balance and time integration of a stage that turns past its loads, and the forces in its bearings.
-BOOST_AUTO_TEST_CASE(response_to_standing_loads_by_two_methods) {
-  annulus::test::Verification record("Response to standing loads", "time integration, balance of energy, reactions");
-  auto s = loaded_in_housing(120 * units::rpm);
-  s.loads.pop_back();
-  auto stage = lumped(s);
-  const double c2 = std::pow(std::cos(s.base_helix_angle), 2);
-  stage.sun_mesh = HarmonicStiffness{sun_stiffness * c2, 0.1, 0};
-  stage.mesh_damping_ratio = 0.05;
-  stage.support_damping_ratio = 0.04;
-  SimulationOptions options;
-  options.samples_per_cycle = 32;
-  options.integrator.relative_tolerance = 1e-7;
-  options.keep_series = true;
-  options.confirmation = Confirmation::always;
-  const auto found = simulate(stage, options);
-  BOOST_TEST(found.confirmed);
-  BOOST_TEST(found.window_cycles == 99);
-  record.at_most("difference of harmonic balance and time integration, of the mean force", "", *found.steady_difference,
-                 1e-3, "tolerance of the steady state");
-  record.at_most("balance of energy", "", found.energy.relative, 1e-4, "tolerance of the integrator");
-  record.at_most("balance of the sun's torque", "", found.force_balance_relative, 1e-4, "tolerance of the integrator");
-  // In the mean over a turn the housing bears what stands in it.
-  const auto motion = space_motion(stage, found.series);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const Eigen::ArrayXd angle = stage.carrier_speed * found.series.time.array();
-  for (const auto& b : motion.bearings) {
-    if (b.on.kind != Kind::housing) continue;
-    const Eigen::ArrayXd x = b.force.row(0).transpose(), y = b.force.row(1).transpose();
-    sum += Vector3d((angle.cos() * x - angle.sin() * y).mean(), (angle.sin() * x + angle.cos() * y).mean(),
-                    b.force.row(2).mean());
-  }
-  const double mass = 180 + 509 + 1500 + 3 * 110;
-  const Vector3d expected = -(mass * s.gravity + Vector3d(2e4, -3e4, 4e4));
-  for (Eigen::Index i = 0; i < 3; ++i)
-    record.near("mean force of the housing over the load", "", sum[i] / expected.norm(), expected[i] / expected.norm(),
-                1e-4, "tolerance of the steady state; dampers of bearings");
 }
 
 /// The same bodies, meshes and bearings by exact rotations of rigid bodies: the potential energy at any motion.

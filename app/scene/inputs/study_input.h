@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ enum class SweepDirection {
   both,     ///< up and down
   branches  ///< both, and the branches of periodic motions between the ends
 };
+inline constexpr std::array<const char*, 5> direction_names{"each", "up", "down", "both", "branches"};
 
 /// One input run through a row of values. Values of studies are in the unit of their input, as in the file.
 struct SweepInput {

@@ -69,10 +69,7 @@ std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {
   return std::make_unique<LumpedModel>(
       identity_of(lumped.id(simulation), std::string(pair_point_method)),
       [pair = lumped.pair, simulation](Answer wanted) -> StudyPoint {
-        auto options = simulation;
-        // Samples and searches ask thousands of times.
-        if (wanted != Answer::all) options.other_motions.starts = 0;
-        auto figures = dynamics::figures(dynamics::evaluate_pair(pair, options));
+        auto figures = dynamics::figures(dynamics::evaluate_pair(pair, simulation));
         if (wanted == Answer::all) figures.add(dynamics::frequency_figures(pair));
         return {.figures = {dynamics::pair_figures(), figures}};
       },

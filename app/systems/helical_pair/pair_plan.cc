@@ -115,7 +115,7 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene) {
   const auto& asked = scene.dynamics->mesh_cycles;
   const bool integrated = course.compared_cycles > 0;
   const double cycles =
-      course.cycles + runs * course.compared_cycles + (asked ? shares * *asked : (1 + shares) * course.searched_cycles);
+      course.cycles + runs * course.compared_cycles + (asked ? shares * *asked : course.searched_cycles);
   const double balances = course.balance_s * ((integrated ? 0 : 1 + runs) + (asked ? 0 : shares));
   constexpr double of_study = 1e-3;  // its model, and loss of contact at some points
   const double study_s = of_study + course.balance_s + (asked ? *asked : course.searched_cycles) * per_cycle;

@@ -74,6 +74,8 @@ class PairSystem final : public GearSystem {
     return pair_response(scene(), run.tables.front(), options);
   }
 
+  [[nodiscard]] bool offers(SweepDirection /*direction*/) const override { return true; }
+
   [[nodiscard]] std::vector<Warning> scene_warnings() const override {
     const auto geometry = make_pair_geometry(scene());
     std::vector<Warning> list;

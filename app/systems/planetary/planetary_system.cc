@@ -113,6 +113,8 @@ class PlanetarySystem final : public GearSystem {
     return ring_response(scene(), geometry(), ring, run.tables.front(), run.tables.at(ring + 1), options);
   }
 
+  [[nodiscard]] bool offers(SweepDirection /*direction*/) const override { return true; }
+
   [[nodiscard]] std::vector<Warning> scene_warnings() const override {
     return stage_scene_warnings(scene(), geometry());
   }

@@ -100,6 +100,8 @@ class TwoKVSystem final : public GearSystem {
                             run.tables_of(variant), published, options);
   }
 
+  [[nodiscard]] bool offers(SweepDirection direction) const override { return direction != SweepDirection::branches; }
+
   [[nodiscard]] std::vector<Warning> scene_warnings() const override {
     const auto pair = sun_planet_pair(scene());
     std::vector<Warning> list;

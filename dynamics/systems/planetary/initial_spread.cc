@@ -4,58 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include "core/errors.h"
-#include "dynamics/statics/static_solver.h"
-#include "dynamics/statistics/sampling.h"
-#include "dynamics/system/lumped_system.h"
-#include "dynamics/systems/planetary/planetary_modes.h"
+#include "dynamics/steady_state/random_starts.h"
 
 namespace annulus::dynamics {
 
 namespace {
-
-/// Draws states about the static equilibrium.
-class StartSampler {
- public:
-  StartSampler(const PlanetaryStage& stage, const InitialSpreadOptions& options)
-      : options_(options), system_(assemble(stage)), rate_(2 * std::numbers::pi * stage.mesh_frequency()) {
-    StaticSolver solver(system_);
-    auto workspace = system_.workspace();
-    equilibrium_ = solver.solve(0, workspace);
-    for (std::size_t m = 0; m < workspace.force.size(); ++m)
-      if (system_.is_whole_mesh(static_cast<int>(m)))
-        size_ = std::max(size_, options.factor * std::abs(workspace.force[m]) / workspace.stiffness[m]);
-    for (const auto& mode : modes(stage).modes)
-      if (mode.frequency == 0) rigid_.push_back(mode.shape);
-  }
-
-  [[nodiscard]] SystemState draw(std::uint64_t start) const {
-    SystemState state{0, equilibrium_, {}};
-    state.q += size_ * random_vector(start, " displacement");
-    state.v = size_ * rate_ * random_vector(start, " velocity");
-    return state;
-  }
-
- private:
-  /// Entries within -1 ... 1, rigid motions taken out: they would turn the stage at another speed.
-  [[nodiscard]] Eigen::VectorXd random_vector(std::uint64_t start, const char* what) const {
-    Eigen::VectorXd v(system_.dofs());
-    for (int i = 0; i < system_.dofs(); ++i)
-      v[i] = 2 * uniform_draw(options_.seed, start, system_.names()[i] + what) - 1;
-    for (const auto& nu : rigid_) v -= nu * nu.dot(system_.mass() * v);
-    return v;
-  }
-
-  const InitialSpreadOptions& options_;
-  LumpedSystem system_;
-  double rate_ = 0, size_ = 0;
-  Eigen::VectorXd equilibrium_;
-  std::vector<Eigen::VectorXd> rigid_;
-};
 
 bool same_motion(const FigureSet& a, const FigureSet& b, double share) {
   const auto close = [&](const std::string& key) {
@@ -78,13 +35,14 @@ InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOpt
         fmt::format("a spread over initial conditions needs a positive size of starts ({}), a positive share of "
                     "sameness ({}) and no negative number of starts ({})",
                     options.factor, options.same, options.random_starts));
-  const StartSampler sampler(stage, options);
+  const auto [system, problem] = lumped_case(stage);
+  const RandomStarts starts(system, problem, options.factor, options.seed);
   PointOptions point{.simulation = options.simulation, .motion = false};
   point.simulation.steady_state = SteadyState::time_integration;
   point.simulation.other_motions.starts = 0;  // the starts of the spread are its own
   InitialSpread spread;
   for (int i = 0; i <= options.random_starts; ++i) {
-    if (i > 0) point.simulation.start = sampler.draw(static_cast<std::uint64_t>(i));
+    if (i > 0) point.simulation.start = starts.draw(static_cast<std::uint64_t>(i));
     InitialStart start{.figures = evaluate_point(stage, point).figures};
     start.steady = start.figures.value("steady") == 1;
     if (start.steady) {

@@ -9,9 +9,7 @@ namespace annulus::dynamics {
 
 struct InitialSpreadOptions {
   int random_starts = 8;  ///< beside the static equilibrium
-  /// Random starts lie within this many static mesh deflections of the equilibrium in every DOF, with velocities as
-  /// of a vibration of that size at mesh frequency.
-  double factor = 3;
+  double factor = 3;      ///< static mesh deflections, see RandomStarts
   std::uint64_t seed = 1;
   /// Two motions are the same when none of their results (load sharing, peak factor, contact loss) differs by more
   /// than this share; steady windows agree far better.

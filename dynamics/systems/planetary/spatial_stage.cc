@@ -351,6 +351,10 @@ class Assembly {
 
 }  // namespace
 
+bool StageLoad::stands_in_housing() const {
+  return frame == StageFrame::housing && (force.head<2>().any() || moment.head<2>().any() || point.head<2>().any());
+}
+
 bool SpatialStage::has_bearings(const StageBody& body) const {
   return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
 }
@@ -396,10 +400,7 @@ std::vector<std::string> SpatialStage::reasons_for_space() const {
 
 bool SpatialStage::depends_on_carrier_angle() const {
   if (plane.carrier_speed == 0) return false;
-  for (const auto& load : loads)
-    if (load.frame == StageFrame::housing &&
-        (load.force.head<2>().any() || load.moment.head<2>().any() || load.point.head<2>().any()))
-      return true;
+  if (std::any_of(loads.begin(), loads.end(), [](const auto& load) { return load.stands_in_housing(); })) return true;
   if (gravity.head<2>().any() && !weights.empty()) return true;
   for (const auto& b : bearings) {
     if (b.frame != StageFrame::housing) continue;

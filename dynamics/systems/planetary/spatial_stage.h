@@ -42,6 +42,8 @@ struct StageLoad {
   StageBody body;
   StageFrame frame = StageFrame::housing;
   Eigen::Vector3d point = Eigen::Vector3d::Zero(), force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+  /// Whether it keeps its direction in the housing, past which the carrier turns.
+  [[nodiscard]] bool stands_in_housing() const;
 };
 
 /// Weight of a body in its centre of mass, which is on its axis.

@@ -33,8 +33,6 @@ DynamicResponse response_of_point(const PlanetaryStage& stage, const PointOption
   // the difference to half the samples, and the difference is stated.
   if (stage.error_period() > long_window) simulation.confirm_beyond *= 5;
   simulation.keep_series = options.motion;
-  // Samples and searches ask thousands of times.
-  if (!options.motion) simulation.other_motions.starts = 0;
   if (!options.motion && !simulation.mesh_cycles)
     simulation.samples_per_cycle = samples_of_point(stage, simulation.samples_per_cycle);
   return simulate(stage, simulation);

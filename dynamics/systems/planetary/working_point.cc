@@ -108,24 +108,15 @@ LinearBearing on_pin(const std::vector<LinearBearing>& bearings, const Stiffness
   return result;
 }
 
-}  // namespace
-
-bool stands_in_housing(const StageLoad& load) {
-  return load.frame == StageFrame::housing &&
-         (load.force.head<2>().any() || load.moment.head<2>().any() || load.point.head<2>().any());
-}
-
-namespace {
-
-/// Loads at which planets and what turns with the carrier work: of what the carrier turns past, the part along the
-/// axis. Planets have their centrifugal forces.
+/// The loads under which planets and bearings on the carrier are linearised. Loads that stand in the housing have their
+/// part along the axis alone; planets have their centrifugal forces.
 SpatialStage without_standing_loads(const SpatialStage& stage) {
   auto turning = stage;
   const auto& plane = stage.plane;
   if (plane.carrier_speed != 0) {
     turning.gravity.head<2>().setZero();
     for (auto& load : turning.loads)
-      if (stands_in_housing(load)) {
+      if (load.stands_in_housing()) {
         load.point.head<2>().setZero();
         load.force.head<2>().setZero();
         load.moment.setZero();
@@ -161,7 +152,7 @@ Eigen::Matrix<double, 6, 1> about_middle(const SpatialStage& stage, const StageL
 void add_load(const SpatialStage& stage, const StageLoad& load, StageSpace& space) {
   const double speed = stage.plane.carrier_speed;
   const auto now = about_middle(stage, load, 0);
-  if (speed == 0 || !stands_in_housing(load)) {
+  if (speed == 0 || !load.stands_in_housing()) {
     space.loads.push_back({load.body, now});
     return;
   }
@@ -213,7 +204,8 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
   const auto turning = without_standing_loads(stage);
   const bool turns = stage.plane.carrier_speed != 0;
   const bool stands = turns && ((stage.gravity.head<2>().any() && !stage.weights.empty()) ||
-                                std::any_of(stage.loads.begin(), stage.loads.end(), stands_in_housing));
+                                std::any_of(stage.loads.begin(), stage.loads.end(),
+                                            [](const auto& load) { return load.stands_in_housing(); }));
   const auto made = assemble(turning, 0), made_under_all = stands ? assemble(stage, 0) : made;
   const auto at = made.mechanism.solve();
   const auto under_all = stands ? made_under_all.mechanism.solve() : at;

@@ -4,9 +4,6 @@
 
 namespace annulus::dynamics {
 
-/// Whether a load keeps its direction in the housing, past which the carrier turns.
-[[nodiscard]] bool stands_in_housing(const StageLoad& load);
-
 /// The dynamics of a stage in space (PlanetaryStage::space), for small motions about its equilibrium at time 0:
 /// bearings with clearance, rollers and tables have their tangents there and the forces they bear. Planets have their
 /// centrifugal forces. Gravity and loads that stand in the housing turn past the carrier (standing_loads). Bearings in

@@ -69,9 +69,10 @@ struct Seams {
   std::vector<int> first, last;  ///< empty at the beginning
 };
 
-/// Adds a tooth to the body behind the last cut; `closing`: its upper cut is the first one.
+enum class UpperCut { open, on_first };
+/// Adds a tooth to the body behind the last cut.
 void append(QuadraticBody& body, Seams& seams, const QuadraticBody& sector, int tooth, double pitch_angle,
-            double tolerance, bool closing) {
+            double tolerance, UpperCut upper) {
   const Eigen::Rotation2Dd turn(tooth * pitch_angle);
   std::vector<int> index(sector.nodes.size(), -1);
   const auto join = [&](const std::vector<int>& cut, const std::vector<int>& seam) {
@@ -85,7 +86,7 @@ void append(QuadraticBody& body, Seams& seams, const QuadraticBody& sector, int 
   const auto low = cut_nodes(sector, Boundary::side_low), high = cut_nodes(sector, Boundary::side_high);
   const bool begins = seams.first.empty();
   if (!begins) join(low, seams.last);
-  if (closing) join(high, seams.first);
+  if (upper == UpperCut::on_first) join(high, seams.first);
   for (std::size_t i = 0; i < index.size(); ++i)
     if (index[i] < 0) {
       index[i] = static_cast<int>(body.nodes.size());
@@ -135,7 +136,7 @@ QuadraticBody make_segment(const geometry::ToothProfile& profile, const Mesh& fi
   Seams seams;
   for (int tooth = segment.first; tooth <= segment.last; ++tooth)
     append(body, seams, tooth >= segment.first_fine && tooth <= segment.last_fine ? fine_tooth : coarse_tooth, tooth,
-           profile.gear().pitch_angle(), 1e-9 * support_radius, false);
+           profile.gear().pitch_angle(), 1e-9 * support_radius, UpperCut::open);
   return body;
 }
 
@@ -149,7 +150,7 @@ QuadraticBody make_gear(const geometry::ToothProfile& profile, const Mesh& fine,
   const int teeth = profile.gear().teeth();
   for (int tooth = 0; tooth < teeth; ++tooth)
     append(body, seams, fine_teeth.count(tooth) > 0 ? fine_tooth : coarse_tooth, tooth, profile.gear().pitch_angle(),
-           1e-9 * support_radius, tooth + 1 == teeth);
+           1e-9 * support_radius, tooth + 1 == teeth ? UpperCut::on_first : UpperCut::open);
   return body;
 }
 

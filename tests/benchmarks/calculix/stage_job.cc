@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <sstream>
 
 #include "benchmarks/calculix/deck.h"
@@ -19,7 +20,7 @@ namespace {
 
 using geometry::Boundary;
 
-/// *SPRING tells degrees of freedom from stiffnesses by their being whole numbers.
+/// *SPRING reads whole numbers as degrees of freedom, so that a stiffness needs a decimal point.
 std::string real_field(double value) { return fmt::format("{:.9e}", value); }
 
 /// Nodes beside those of the bodies, whose displacements stand for motions of rigid hubs, pins and supports.
@@ -92,7 +93,7 @@ class StageDeck {
       const std::array<int, 3> nodes{cell[side.number], cell[4 + side.number], cell[(side.number + 1) % 4]};
       const auto angle = [&](int node) {
         const auto& p = job_.ring.nodes[node];
-        return std::remainder(std::atan2(p.y(), p.x()) - site.angle, 2 * M_PI);
+        return std::remainder(std::atan2(p.y(), p.x()) - site.angle, 2 * std::numbers::pi);
       };
       const double from = angle(nodes[0]), to = angle(nodes[2]);
       if (std::abs(to - from) > 1) continue;  // the side opposite to the site, where angles jump
@@ -119,7 +120,7 @@ class StageDeck {
       for (std::size_t d = 0; d < site.directions.size(); ++d) {
         const auto& direction = site.directions[d];
         require(!direction.unilateral && direction.clearance == 0, "supports of the peer are two-sided springs");
-        const double angle = site.angle + M_PI - std::atan2(direction.counter_clockwise, direction.inward);
+        const double angle = site.angle + std::numbers::pi - std::atan2(direction.counter_clockwise, direction.inward);
         const auto all = shares(site);
         out_.print("*EQUATION\n{}\n{}, {}, -1.", 1 + 2 * all.size(), references_.site[i], d + 1);
         int column = 1;
