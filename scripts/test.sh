@@ -7,13 +7,15 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=quick
 packages=--tests
+benchmarks=OFF
 if [ "${1:-}" = --all ]; then
   preset=release
   packages=--all
+  benchmarks=ON
   shift
 fi
 
 scripts/install_packages.sh "$packages"
-cmake --preset release -DANNULUS_BUILD_TESTS=ON
+cmake --preset release -DANNULUS_BUILD_TESTS=ON -DANNULUS_BUILD_BENCHMARKS=$benchmarks
 cmake --build --preset release
 ctest --preset "$preset" --parallel "$(nproc)" "$@"

@@ -258,6 +258,7 @@ MeshResult stiffness_alone(const MeshResult& mesh) {
           .coupling = mesh.coupling,
           .face = mesh.face,
           .shares = mesh.shares,
+          .partner_compliance = mesh.partner_compliance,
           .nominal = mesh.nominal,
           .tabulated = mesh.tabulated,
           .reused = mesh.reused};
@@ -296,6 +297,18 @@ PairShares shares_of(const MeshModel& model, const fem::LoadedMeshResult& solved
   return shares;
 }
 
+std::vector<double> partner_compliance_of(const MeshModel& model, const fem::LoadedMeshResult& solved) {
+  if (!model.problem->planet_rollers) return {};
+  const int phases = solved.table.phases();
+  const double nominal = model.problem->loads[model.nominal_load()];
+  std::vector<double> sum(static_cast<std::size_t>(phases), 0.0);
+  for (const auto& p : solved.positions)
+    if (p.load == nominal && p.mesh_phase < 1)
+      sum.at(static_cast<std::size_t>(std::lround(p.mesh_phase * phases))) += p.partner_compliance;
+  for (double& compliance : sum) compliance /= solved.table.positions();
+  return sum;
+}
+
 }  // namespace
 
 MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
@@ -312,6 +325,7 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
                     .gauges = gauge_table(solved),
                     .facts = facts_of(model, solved),
                     .shares = shares_of(model, solved),
+                    .partner_compliance = partner_compliance_of(model, solved),
                     .nominal = model.nominal_load()};
   const std::vector<std::string> keys = {"load_N", "mesh_phase"};  // by which rows are found
   result.positions.round(keys);

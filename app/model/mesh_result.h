@@ -70,7 +70,10 @@ struct MeshResult {
   std::shared_ptr<const SolvedCoupling> coupling{};
   /// Solid gears along their face, where the dynamics moves them in space; else null.
   std::shared_ptr<const FaceShape> face{};
-  PairShares shares{};      ///< none of prescribed stiffnesses
+  PairShares shares{};  ///< none of prescribed stiffnesses
+  /// m/N at the phases of the table, at the nominal load, the mean over all ring positions: by which the other mesh of
+  /// a planet on rollers deflects this one (fem::LoadedPosition::partner_compliance). Empty for planets on hubs.
+  std::vector<double> partner_compliance{};
   std::size_t nominal = 0;  ///< index of the nominal load in the table
   /// Whether the lumped model reads the table; else the scene prescribes a stiffness, and the table shows it.
   bool tabulated = true;
@@ -124,9 +127,9 @@ struct Members<app::MeshResult> {
   template <class Value>
   static auto of(Value& value) {
     auto& [model, contact_ratio, table, positions, housing, rollers, pins, pressure, line_load, stress, gauges, picture,
-           fields, bodies, facts, coupling, face, shares, nominal, tabulated, reused] = value;
+           fields, bodies, facts, coupling, face, shares, partner_compliance, nominal, tabulated, reused] = value;
     return std::tie(contact_ratio, table, positions, housing, rollers, pins, pressure, line_load, stress, gauges,
-                    picture, fields, bodies, facts, shares, nominal, tabulated);
+                    picture, fields, bodies, facts, shares, partner_compliance, nominal, tabulated);
   }
 };
 

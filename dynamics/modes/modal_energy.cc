@@ -38,7 +38,7 @@ ModalEnergy modal_energy(const LumpedSystem& system, const Eigen::VectorXd& mesh
   const Eigen::Index meshes = mesh_vectors.cols();
   for (const auto& mesh : system.meshes()) result.elements.push_back(mesh.name);
   const Eigen::MatrixXd coupled = mesh_stiffness_matrix(system, mesh_stiffness);
-  if (!system.couplings().empty()) result.elements.emplace_back("ring_body");
+  for (const auto& coupling : system.couplings()) (void)index_of_name(result.elements, coupling.body);
 
   std::vector<Eigen::Index> body;
   for (const auto& dof : system.names()) body.push_back(index_of_name(result.bodies, body_of(dof)));
@@ -55,8 +55,10 @@ ModalEnergy modal_energy(const LumpedSystem& system, const Eigen::VectorXd& mesh
       }
       const Eigen::VectorXd delta = mesh_vectors.transpose() * mode.shape, force = coupled * delta;
       result.strain.col(i).segment(springs, meshes) = force.array().square() / mesh_stiffness.array();
-      if (!system.couplings().empty())
-        result.strain(springs + meshes, i) = delta.dot(force) - result.strain.col(i).segment(springs, meshes).sum();
+      for (const auto& coupling : system.couplings())
+        for (const int m : coupling.meshes)
+          result.strain(index_of_name(result.elements, coupling.body), i) +=
+              delta[m] * force[m] - result.strain(springs + m, i);
       result.strain.col(i) /= result.strain.col(i).sum();
     }
     const Eigen::VectorXd momentum = system.mass() * mode.shape;

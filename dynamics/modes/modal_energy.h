@@ -11,9 +11,9 @@ namespace annulus::dynamics {
 
 /// Distribution of the energy of each mode. The strain share of a spring is k (a^T phi)^2 / phi^T K phi: the relative
 /// change of omega^2 per relative change of its stiffness. The share of a mesh is F^2/k / phi^T K phi. The rest of
-/// meshes coupled through the ring, F^T D F, belongs to the element ring_body.
+/// coupled meshes, F^T D F, belongs to an element with the name MeshCoupling::body.
 struct ModalEnergy {
-  std::vector<std::string> elements;  ///< springs, then meshes (and ring_body)
+  std::vector<std::string> elements;  ///< springs, then meshes, then bodies that couple them
   Eigen::MatrixXd strain;             ///< elements x modes; columns sum to 1, to 0 for rigid motions
   std::vector<std::string> bodies;    ///< of the DOFs
   /// bodies x modes; columns sum to 1. A body without DOFs of its own counts with the body that carries it.

@@ -44,7 +44,8 @@ struct MeshElement {
   std::vector<MovingShare> moving;  ///< at most one per DOF
 };
 
-/// Meshes that act on each other through a common elastic body (the ring). The law of mesh i acts on the deflection
+/// Meshes that act on each other through a common elastic body (the ring, a planet). The law of mesh i acts on the
+/// deflection
 ///   delta_i - sum_j D_ij(t) F_j,
 /// so the forces F solve a system of equations. F is the elastic force alone: dampers of the meshes act on the approach
 /// rate of the rigid bodies as without coupling and do not deflect the common body.
@@ -63,6 +64,7 @@ struct MeshCoupling {
     double stiffness = 0;  ///< N/m
   };
   std::vector<RetainedMode> retained;
+  std::string body = "common_body";  ///< its strain energy is reported under this name
 };
 
 /// The curves of MeshCoupling::compliance from symmetric matrices (m/N), `per_cycle` of them per mesh cycle. Throws

@@ -70,14 +70,14 @@ ContactForces port_forces(const ContactBodies& bodies, const ToothPairs& setup, 
 
 namespace {
 
-/// What changes with the load where the other mesh of the planet loads it by as much: its displacements are gaps, and
-/// its resultants loads of the rigid motions.
+/// What changes with the loads of a planet's two meshes. Displacements by the other mesh are gaps, and its resultants
+/// loads of the rigid motions.
 struct ChangeWithLoad {
   Eigen::VectorXd force;          ///< N/N
   double transmission_error = 0;  ///< m/N
 };
 ChangeWithLoad change_with_load(const ToothPairs& setup, const ComplementarityProblem& problem,
-                                const ComplementaritySolution& solution) {
+                                const ComplementaritySolution& solution, double own, double other) {
   std::vector<Eigen::Index> active;
   for (Eigen::Index i = 0; i < solution.force.size(); ++i)
     if (solution.active[static_cast<std::size_t>(i)]) active.push_back(i);
@@ -87,10 +87,11 @@ ChangeWithLoad change_with_load(const ToothPairs& setup, const ComplementarityPr
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) matrix(i, j) = problem.compliance(active[i], active[j]);
     matrix.row(i).tail(motions) = -problem.rigid.row(active[i]);
-    change[i] = -problem.applied_gap[active[i]] / setup.load;
+    change[i] = -other * problem.applied_gap[active[i]] / setup.load;
   }
   matrix.bottomLeftCorner(motions, n) = matrix.topRightCorner(n, motions).transpose();
-  change.tail(motions) = -problem.load / setup.load;
+  change.tail(motions) = -other * problem.load / setup.load;
+  change[n] = -own * problem.load[0] / setup.load;
   // Compliances and lever arms differ by ten orders of magnitude.
   const double scale = problem.compliance.diagonal().cwiseAbs().maxCoeff();
   matrix.topLeftCorner(n, n) /= scale;
@@ -113,14 +114,20 @@ LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup, co
   double compliance = solution.tangent(0, 0);
   const auto floating = floating_unknowns(bodies, setup.contacts);
   if (bodies.rollers != nullptr) {
-    const auto change = change_with_load(setup, problem, solution);
     const auto& planet = floating.back();
-    Eigen::VectorXd row_change =
-        row_forces(bodies, setup, planet, solution) / load;  // those applied rise with the load
-    row_change.head(planet.row->unknowns()) = change.force.segment(planet.force, planet.row->unknowns());
-    const auto bearing = bodies.rollers->bearing_motion(load, row_forces(bodies, setup, planet, solution), row_change);
+    const auto forces = row_forces(bodies, setup, planet, solution);
+    std::vector<PlanetOnRollers::Change> changes = {{1, 1}, {0, 1}};  // of both meshes, and of the other one alone
+    std::vector<double> compliances;
+    for (auto& [own, other, row_change] : changes) {
+      const auto change = change_with_load(setup, problem, solution, own, other);
+      compliances.push_back(change.transmission_error);
+      row_change = other * forces / load;  // those applied rise with the load of the other mesh
+      row_change.head(planet.row->unknowns()) = change.force.segment(planet.force, planet.row->unknowns());
+    }
+    const auto bearing = bodies.rollers->bearing_motion(load, forces, changes);
     result.entry.lte -= bearing.transmission_error;
-    compliance = change.transmission_error - bearing.slope;
+    compliance = compliances[0] - bearing.slopes[0];
+    result.partner_compliance = compliances[1] - bearing.slopes[1];
     if (!(compliance > 0))
       throw InputError(fmt::format(
           "under {:.4g} N the rollers of the planet, with {:.4g} um of radial clearance, carry over so little "

@@ -76,7 +76,7 @@ Eigen::VectorXd PlanetOnRollers::partner_forces(double angle) const {
 }
 
 PlanetOnRollers::Motion PlanetOnRollers::bearing_motion(double load, const Eigen::VectorXd& forces,
-                                                        const Eigen::VectorXd& change) const {
+                                                        const std::vector<Change>& changes) const {
   // By virtual work a motion adds its part along the forces of this mesh, which are what bed and other mesh leave.
   const Eigen::Index applied = row_.plan().applied();
   const auto on_bed = [&](const Eigen::VectorXd& f) -> Eigen::Vector2d {
@@ -85,12 +85,15 @@ PlanetOnRollers::Motion PlanetOnRollers::bearing_motion(double load, const Eigen
   const auto of_mesh = [&](const Eigen::VectorXd& f) -> Eigen::Vector2d {
     return on_bed(f) - row_.resultants().bottomLeftCorner(applied, 2).transpose() * f.tail(applied);
   };
-  const Eigen::Vector2d force = on_bed(forces), along = of_mesh(forces) / load,
-                        turning = (of_mesh(change) - along) / load;
-
+  const Eigen::Vector2d along = of_mesh(forces) / load;
   Eigen::Matrix2d stiffness;
-  const Eigen::Vector2d motion = round_rim(force, stiffness);
-  return {along.dot(motion), along.dot(stiffness.inverse() * on_bed(change)) + turning.dot(motion)};
+  const Eigen::Vector2d motion = round_rim(on_bed(forces), stiffness);
+  Motion result{along.dot(motion)};
+  for (const auto& change : changes) {
+    const Eigen::Vector2d turning = (of_mesh(change.forces) - change.own * along) / load;
+    result.slopes.push_back(along.dot(stiffness.inverse() * on_bed(change.forces)) + turning.dot(motion));
+  }
+  return result;
 }
 
 void PlanetOnRollers::press(const Eigen::Vector2d& motion, const Eigen::Vector2d& force, Eigen::Vector2d& residual,

@@ -37,13 +37,20 @@ class PlanetOnRollers {
   /// per N of its load: as the last ones of row().
   [[nodiscard]] Eigen::VectorXd partner_forces(double angle) const;
 
-  /// What the motion of a planet with a rigid rim adds to the transmission error, m, if the bed carries as much as it
-  /// does under `forces` of row() (N), and its change with the load of one mesh (m/N), of which `load` acts (N) and
-  /// with which the forces change by `change`. Throws SolverError where no equilibrium is found.
-  struct Motion {
-    double transmission_error = 0, slope = 0;
+  /// A change of the loads: of this mesh and of the other one, N/N, and of the forces of row() with it.
+  struct Change {
+    double own = 0, other = 0;
+    Eigen::VectorXd forces{};
   };
-  [[nodiscard]] Motion bearing_motion(double load, const Eigen::VectorXd& forces, const Eigen::VectorXd& change) const;
+  /// What the motion of a planet with a rigid rim adds to the transmission error, m, if the bed carries as much as it
+  /// does under a load of this mesh and `forces` of row() (N), and how it changes, m/N. Throws SolverError where no
+  /// equilibrium is found.
+  struct Motion {
+    double transmission_error = 0;
+    std::vector<double> slopes{};  ///< one per change
+  };
+  [[nodiscard]] Motion bearing_motion(double load, const Eigen::VectorXd& forces,
+                                      const std::vector<Change>& changes) const;
 
  private:
   /// Bed under a motion of a round rim: what is left of a force, and its tangent.

@@ -66,6 +66,10 @@ struct LoadedPosition {
   /// frame of the solve.
   std::vector<double> rollers;
   double planet_angle = 0;
+  /// Of a planet on rollers: m/N, by which a force of its other mesh deflects this mesh while the force of this one
+  /// stays, less what a planet with a round rim would do. Part of the compliance behind the tangent stiffness, with
+  /// which both forces change.
+  double partner_compliance = 0;
   std::vector<double> line_load;        ///< N/m, of all pairs together, per slice of the face width from low to high z
   double face_load_factor = 1;          ///< K_H_beta (ISO 6336-1): largest over mean line load
   std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only

@@ -86,6 +86,7 @@ void unfold(LoadedPosition& position, double width) {
       support.tangential_force *= 2;
     }
   for (double& force : position.rollers) force *= 2;
+  position.partner_compliance /= 2;
   position.line_load = mirrored_values(position.line_load);
   // Patches of one strip across the face stand together, by rising z.
   std::vector<PressurePatch> whole;

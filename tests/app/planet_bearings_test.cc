@@ -1,4 +1,5 @@
 #include <Eigen/Dense>
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -237,6 +238,16 @@ BOOST_AUTO_TEST_CASE(rollers_that_are_not_modelled_are_refused) {
   refused("model = \"closed_form\"\n" + thin_planets(), "needs a whole planet");
 }
 
+BOOST_AUTO_TEST_CASE(a_prescribed_mesh_leaves_out_the_coupling_of_a_planet) {
+  const auto warned = [](const std::string& text) {
+    const auto scene = app::parse_scene(text, "scene.toml");
+    const auto list = app::stage_scene_warnings(scene, app::make_geometry(scene));
+    return std::any_of(list.begin(), list.end(), [](const auto& w) { return w.key == "planet_coupling_left_out"; });
+  };
+  BOOST_TEST(!warned(thin_planets()));
+  BOOST_TEST(warned(thin_planets() + "\n[mesh.sun_planet]\nstiffness = \"constant\"\nmean_N_per_m = 1e9\n"));
+}
+
 // The load of the rollers adds up to the forces of both meshes, whichever mesh it was solved in; that the rim spreads
 // it is what thin rims are known for. Both solutions have the same loads on the planet but where the contact of the own
 // mesh is exact and that of the other one is not.
@@ -273,6 +284,11 @@ BOOST_AUTO_TEST_CASE(a_run_with_planets_on_rollers) {
                of_mesh("ring_planet", "largest_N_per_deg"), 0.02, "the other mesh's load at places of a flank");
   BOOST_TEST(of_mesh("sun_planet", "load_zone_deg") > of_mesh("sun_planet", "load_zone_of_round_rim_deg"));
   BOOST_TEST(of_mesh("sun_planet", "largest_over_round_rim") < 1);
+  const auto deflection = "deflection_by_other_mesh_m_per_N";
+  record.close("deflection by the other mesh, sun against ring mesh", "m/N", of_mesh("sun_planet", deflection),
+               of_mesh("ring_planet", deflection), 0.02, "the other mesh's load at places of a flank");
+  const auto modes = read_file(folder.path() / "out" / "ring" / "dynamics" / "modes.csv");
+  BOOST_TEST(modes.find(",strain_planet_body") != std::string::npos, modes.substr(0, 600));
   const auto page = read_file(folder.path() / "out" / "report.html");
   BOOST_TEST(page.find("id=\"rollers\"") != std::string::npos);
   const auto stress = read_file(folder.path() / "out" / "stress_sun_planet.csv");

@@ -170,14 +170,18 @@ BOOST_AUTO_TEST_CASE(irregular_and_rare_motions_are_recognised) {
     const auto found = steady_response(pair.system(), pair.problem(), options);
     for (const auto& [period, count] : by_period) {
       if (6 * count < starts) continue;
-      const auto same = std::find_if(found.motions.list.begin(), found.motions.list.end(),
-                                     [p = period](const FoundMotion& motion) { return motion.period == p; });
-      BOOST_TEST_REQUIRE((same != found.motions.list.end()), "period " << period);
-      record.near("share of the starts that lead to motions of one period", "",
-                  static_cast<double>(same->starts) / starts, static_cast<double>(count) / starts, 0.3,
-                  "24 starts each, two standard deviations");
+      int same = 0;
+      double force = 0;
+      for (const auto& motion : found.motions.list) {
+        if (motion.period != period) continue;
+        same += motion.starts;
+        force = std::max(force, motion.largest_force);
+      }
+      BOOST_TEST_REQUIRE(same > 0, "period " << period);
+      record.near("share of the starts that lead to motions of one period", "", static_cast<double>(same) / starts,
+                  static_cast<double>(count) / starts, 0.3, "24 starts each, two standard deviations");
       if (period == 0)
-        record.close("largest force of the irregular motion", "", same->largest_force / SpurPair::load, largest, 0.15,
+        record.close("largest force of the irregular motion", "", force / SpurPair::load, largest, 0.15,
                      "largest of some hundred periods");
     }
   }

@@ -92,6 +92,7 @@ struct WholePlanet {
   DiscretisedBody body;
   std::vector<Eigen::VectorXd> patches;  ///< of the bed, unit forces
   Eigen::MatrixXd motions;               ///< x, y, rotation of all nodes
+  Eigen::VectorXd torque;                ///< 1 N m, an even traction around the bore
 };
 
 WholePlanet whole_planet(const ContactBench& bench, const LoadedMeshProblem& problem, std::size_t patch_count) {
@@ -121,6 +122,7 @@ WholePlanet whole_planet(const ContactBench& bench, const LoadedMeshProblem& pro
   const auto patches = static_cast<int>(patch_count);
   const double spacing = 2 * M_PI / patches;
   constexpr int samples = 400;
+  planet.torque = Eigen::VectorXd::Zero(rows);
   for (int i = 0; i < patches; ++i) {
     const double middle = (i + 0.5) * spacing - pitch / 2;
     const Eigen::Vector2d outwards(std::cos(middle), std::sin(middle));
@@ -133,7 +135,11 @@ WholePlanet whole_planet(const ContactBench& bench, const LoadedMeshProblem& pro
       const double edge = std::remainder(high.first - low.first, 2 * M_PI),
                    part = std::remainder(at - low.first, 2 * M_PI) / edge;
       for (const auto& [node, share] : {std::pair{low.second, 1 - part}, {high.second, part}})
-        for (int c = 0; c < 2; ++c) load[b.dof[2 * node + c]] += share / samples * outwards[c];
+        for (int c = 0; c < 2; ++c) {
+          load[b.dof[2 * node + c]] += share / samples * outwards[c];
+          planet.torque[b.dof[2 * node + c]] +=
+              share / samples / patches / bore * (c == 0 ? -std::sin(at) : std::cos(at));
+        }
     }
     planet.patches.push_back(std::move(load));
   }
@@ -164,10 +170,10 @@ BOOST_AUTO_TEST_CASE(the_whole_planet_as_one_matrix) {
   annulus::test::Verification record("Thin planet on rollers",
                                      "one matrix of all sectors, solved directly (CHOLMOD), "
                                      "its bed closed spring by spring");
-  double worst = 0;
+  double worst = 0, coupling = 0;
   for (const bool ring : {false, true}) {
     const double play = 15e-6;
-    const auto problem = on_rollers(mesh(ring), 1.5, play);
+    const auto problem = on_rollers(mesh(ring), ring ? 1.5 : 2.5, play);
     ContactBench bench(problem, 1, annulus::fem::Fidelity::plane, false, 1);
     const auto position = bench.solve(0.2, nominal_load);
     const auto forces = bench.forces(0.2, nominal_load);
@@ -176,6 +182,7 @@ BOOST_AUTO_TEST_CASE(the_whole_planet_as_one_matrix) {
     const double width = problem.face_width;
     Eigen::VectorXd load = Eigen::VectorXd::Zero(b.stiffness.rows());
     for (const auto& tooth : forces.planet) add_ports(planet, bench.bodies().planet->body(), tooth, load);
+    const Eigen::VectorXd own = load / nominal_load;
     // The line of action of the other mesh: tangent to the base circle, on the other side of the planet. Its force acts
     // on the flank where that line meets it: found as the node of another flank whose normal is along it, and nearest.
     const double other = problem.planet_rollers->partner.working_pressure_angle(), sign = ring ? -1 : 1;
@@ -217,7 +224,8 @@ BOOST_AUTO_TEST_CASE(the_whole_planet_as_one_matrix) {
     const double patch = 4 * bearing / static_cast<double>(planet.patches.size()) / width;
     std::vector<bool> pressing;
     for (const double force : position.rollers) pressing.push_back(force > 0);
-    Eigen::VectorXd u;
+    Eigen::VectorXd u, deflected, other_alone = load / nominal_load - own;
+    other_alone -= other_alone.dot(planet.motions.col(2)) * planet.torque;
     for (int step = 0;; ++step) {
       BOOST_TEST_REQUIRE(step < 50);
       Eigen::SparseMatrix<double> matrix = b.stiffness;
@@ -243,7 +251,9 @@ BOOST_AUTO_TEST_CASE(the_whole_planet_as_one_matrix) {
       Eigen::SparseMatrix<double> springs(matrix.rows(), matrix.cols());
       springs.setFromTriplets(extra.begin(), extra.end());
       matrix += springs;
-      u = SparseCholesky(matrix).solve(right);
+      const SparseCholesky factor(matrix);
+      u = factor.solve(right);
+      deflected = factor.solve(other_alone / width);
       bool changed = false;
       for (std::size_t i = 0; i < planet.patches.size(); ++i) {
         const bool presses = -planet.patches[i].dot(u) - play > 0;
@@ -258,9 +268,26 @@ BOOST_AUTO_TEST_CASE(the_whole_planet_as_one_matrix) {
       worst = std::max(worst, std::abs(force - position.rollers[i]) / largest);
     }
     BOOST_TEST(std::count(pressing.begin(), pressing.end(), false) > 40);
+
+    // How far the other mesh deflects this one, against the mean rotation of the bore, and less the motion of a round
+    // rim.
+    deflected -= planet.torque.dot(deflected) * planet.motions.col(2);
+    const Eigen::Vector2d of_own = planet.motions.leftCols(2).transpose() * own,
+                          of_other = planet.motions.leftCols(2).transpose() * other_alone;
+    const Eigen::Vector2d force = nominal_load * (of_own + of_other);
+    const Eigen::Vector2d moved = RadialBearing(bearing, play).distance(force.norm()) * force.normalized();
+    Eigen::Matrix2d bed = Eigen::Matrix2d::Zero();
+    for (const auto& load_of_patch : planet.patches) {
+      const Eigen::Vector2d outwards = planet.motions.leftCols(2).transpose() * load_of_patch;
+      if (-outwards.dot(moved) - play > 0) bed += patch * width * outwards * outwards.transpose();
+    }
+    const double expected = own.dot(deflected) - of_own.dot(bed.inverse() * of_other);
+    coupling = std::max(coupling, std::abs(position.partner_compliance - expected) * position.entry.stiffness_tangent);
   }
   record.at_most("forces of the bed, difference over the largest", "", worst, 1e-2,
                  "the other mesh's force at a node, half a millimetre off");
+  record.at_most("deflection by the other mesh, difference over that by both", "", coupling, 3e-2,
+                 "the same, and shares of the tooth pairs that stay");
 }
 
 // A planet that does not deform makes the bearing what the law says: the mesh is then as stiff as on a hub. Its motion
@@ -294,6 +321,34 @@ BOOST_AUTO_TEST_CASE(the_tangent_is_the_slope) {
                  down = bench.solve(0.4, nominal_load - step).entry.lte;
     BOOST_TEST(std::abs(2 * step / (up - down) / middle.entry.stiffness_tangent - 1) <= 1e-3);
   }
+}
+
+// Both meshes deflect each other by the same (Maxwell and Betti), each solved by itself with the other one as a given
+// force. That force stands in the theoretical contact and is shared by the tooth pairs by a parabola, not as they share
+// it: this moves it by a fraction of a pitch at the other side of the planet.
+BOOST_AUTO_TEST_CASE(the_meshes_of_a_planet_deflect_each_other_alike) {
+  annulus::test::Verification record("Coupling of the meshes of a thin planet",
+                                     "reciprocity: solved in the sun mesh and in the ring mesh");
+  double worst = 0, largest = 0;
+  for (const auto& [rim, play] : {std::pair{1.5, 0.0}, {1.5, 15e-6}, {2.5, 0.0}}) {
+    ContactBench sun(on_rollers(mesh(false), rim, play), 1), ring(on_rollers(mesh(true), rim, play), 1);
+    const double pitch = mesh(false).pair.pinion().pitch_angle();
+    const double start = ring.solve(0, nominal_load).planet_angle,
+                 per_cycle = 4 * std::remainder(ring.solve(0.25, nominal_load).planet_angle - start, pitch);
+    BOOST_TEST(std::abs(std::abs(per_cycle) - pitch) < 1e-9);
+    for (const double phase : {0.05, 0.3, 0.55, 0.8}) {
+      const auto of_sun = sun.solve(phase, nominal_load);
+      const double same = (-of_sun.planet_angle - start) / per_cycle;
+      const auto of_ring = ring.solve(same - std::floor(same), nominal_load);
+      BOOST_TEST(std::abs(std::remainder(of_sun.planet_angle + of_ring.planet_angle, pitch)) < 1e-9);
+      worst = std::max(
+          worst, std::abs(of_sun.partner_compliance - of_ring.partner_compliance) * of_sun.entry.stiffness_tangent);
+      largest = std::max(largest, of_sun.partner_compliance * of_sun.entry.stiffness_tangent);
+    }
+  }
+  record.at_most("deflection by the other mesh, difference over that by both", "", worst, 4e-2,
+                 "place of the given force");
+  BOOST_TEST(largest > 0.2);
 }
 
 // A light load and a large play: few patches carry, and the mesh still has a stiffness. Beyond that it is refused.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/model/table_errors.h"
+#include "app/systems/planetary/planet_coupling.h"
 #include "app/systems/planetary/rim_coupling.h"
 
 namespace annulus::app {
@@ -90,6 +91,8 @@ ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::Si
   if (on_back_flanks(nominal.ring_planet, tables.ring_mesh))
     add_change(stage, with_moved_supports(stage, tables.ring_mesh.table.positions()), way, found);
   if (const auto coupled = with_omitted_coupling(stage, tables.ring_mesh)) add_change(stage, *coupled, way, found);
+  if (const auto other = with_deviating_coupling(stage, tables.sun_mesh, tables.ring_mesh))
+    add_change(stage, *other, way, found);
   ResponseErrors errors;
   for_each_figure(nominal, errors,
                   [&](const std::string& key, const Figure&, ErrorParts& parts) { parts = found.find(key)->parts; });

@@ -164,8 +164,8 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
       list.emplace_back(
           "The bore of the planets is the raceway of rollers on a rigid pin. The rollers count as an even bed without "
           "friction: how the rim bends between two of them is left out. Each mesh is solved with the force of the "
-          "other "
-          "one on the planet. The motion that a round rim makes in the bearing is left to the lumped model.");
+          "other one on the planet. The motion that a round rim makes in the bearing is left to the lumped model, in "
+          "which the two meshes act on each other through the rim.");
     for (const auto& ring : scene.rings) {
       add_single_pin(list, ring);
       add_axial_force(list, scene, geometry, ring);

@@ -25,7 +25,7 @@ ANNULUS_MEMBERS(dynamics::StageSpace, base_helix_angle, working_radius_sun, work
 ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bearings, planet_angles, planet_errors,
                 sun_tooth_errors, ring_tooth_errors, sun_working_angle, ring_working_angle, sun_teeth, planet_teeth,
                 ring_teeth, sun_mesh, ring_mesh, sun_phase_lag, ring_phase_lag, ring_tooth_offset, ring_coupling,
-                sun_half_backlash, ring_half_backlash, mesh_damping_ratio, support_damping_ratio,
+                planet_coupling, sun_half_backlash, ring_half_backlash, mesh_damping_ratio, support_damping_ratio,
                 damping_without_contact, carrier_speed, ring_speed, bearing_speed, sun_torque, held, rotating_frame,
                 space);
 

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/model/excitation.h"
 #include "app/plan/accuracy_choice.h"
 #include "app/results/cached_value.h"
 #include "app/systems/planetary/pitch_deviations.h"
+#include "app/systems/planetary/planet_coupling.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_members.h"
@@ -92,6 +94,8 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
                                      .pin = play ? pin_stiffness(scene) : rigid});
   if (ring_mesh.coupling)
     stage.ring_coupling = taken_coupling(*ring_mesh.coupling, coupling_choice(scene, *ring_mesh.coupling).taken);
+  if (auto coupling = planet_coupling(stage, sun_mesh, ring_mesh))
+    stage.planet_coupling = std::move(coupling->compliance);
   stage.sun_half_backlash = scene.sun_planet.half_backlash.value_or(scene.dynamics->half_backlash);
   stage.ring_half_backlash = scene.ring_planet.half_backlash.value_or(scene.dynamics->half_backlash);
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;

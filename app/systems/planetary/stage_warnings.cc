@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/model/scene_warnings.h"
+#include "app/systems/planetary/planet_coupling.h"
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/strain_gauges.h"
@@ -80,6 +81,7 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
                                   "rings equalise the planet loads; give a stiffness, or \"rigid\"",
                                   fmt::join(keys, ", "))});
   warn_of_tilting_pins(list, scene, geometry);
+  warn_of_coupling_left_out(list, scene);
   if (scene.dynamics) {
     const auto in_space = space_dynamics_warnings(scene, geometry);
     list.insert(list.end(), in_space.begin(), in_space.end());

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 #include "app/sections/report_parts.h"
@@ -93,6 +94,10 @@ double worst(const MeshResult& a, const MeshResult& b, const std::string& fact) 
   return std::isnan(y) ? x : std::max(x, y);
 }
 
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 Json ring_json(const RunResult& result, std::size_t number) {
   const auto& ring = result.rings[number];
   const auto& sun_mesh = result.sun_mesh;
@@ -108,10 +113,12 @@ Json ring_json(const RunResult& result, std::size_t number) {
   for (const auto& [name, mesh, made] : {std::tuple{"sun_planet", &sun_mesh, &result.geometry.rings.front()},
                                          {"ring_planet", &ring.mesh, &result.geometry.rings[number]}})
     if (const auto loads = roller_loads(result.scene, made->set, *mesh))
-      json["planet_rollers"][name] = {{"largest_N_per_deg", loads->largest * units::deg},
-                                      {"largest_over_round_rim", loads->largest / loads->largest_rigid},
-                                      {"load_zone_deg", loads->load_zone / units::deg},
-                                      {"load_zone_of_round_rim_deg", loads->rigid_load_zone / units::deg}};
+      json["planet_rollers"][name] = {
+          {"largest_N_per_deg", loads->largest * units::deg},
+          {"largest_over_round_rim", loads->largest / loads->largest_rigid},
+          {"load_zone_deg", loads->load_zone / units::deg},
+          {"load_zone_of_round_rim_deg", loads->rigid_load_zone / units::deg},
+          {"deflection_by_other_mesh_m_per_N", json_number(mean(mesh->partner_compliance))}};
   if (ring.tolerances) json["load_sharing_of_assemblies"] = to_json(*ring.tolerances);
   if (!ring.response) return json;
   const auto& f = ring.response->figures;

@@ -13,6 +13,8 @@ std::string element_group(const std::string& name) {
                                                            {"ring_planet", "ring meshes"},
                                                            {"planet_bearing", "planet bearings"},
                                                            {"ring_body", "the ring between the meshes"},
+                                                           {"planet_body", "the planets between their meshes"},
+                                                           {"ring_and_planets", "ring and planets between the meshes"},
                                                            {"ring_mode", "elastic modes of the ring"},
                                                            {"arc_pins", "arc meshes"},
                                                            {"crank_arc", "arc gear bearings"},

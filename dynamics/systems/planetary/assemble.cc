@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -150,6 +151,8 @@ std::vector<LinearForm> add_ring_modes(LumpedSystemBuilder& builder, const Plane
   return dofs;
 }
 
+double value_or_zero(const std::vector<double>& values, int n) { return values.empty() ? 0.0 : values[n]; }
+
 /// Shares of the ring's motion in the approach of the mesh at angle psi = phi_n + a_r [HuFangXuShen2021, eq. (16)],
 /// while the carrier turns past the housing: -sin(psi + Omega t) x + cos(psi + Omega t) y + sum of displacement of the
 /// mode at the tooth in mesh x modal amplitude.
@@ -165,14 +168,69 @@ std::vector<MovingShare> ring_shares(const PlanetaryStage& stage, const BodyForm
   return shares;
 }
 
-MeshCoupling coupling_of(const PlanetaryStage& stage, const std::vector<LinearForm>& modes) {
+MeshCoupling through_ring(const PlanetaryStage& stage, const std::vector<LinearForm>& modes) {
   MeshCoupling coupling;
+  coupling.body = "ring_body";
   for (int n = 0; n < stage.planets(); ++n) coupling.meshes.push_back(stage.planets() + n);
   coupling.compliance = compliance_curves(stage.ring_coupling->compliance, stage.ring_coupling->per_cycle);
   for (std::size_t k = 0; k < modes.size(); ++k)
     coupling.retained.push_back(
         {modes[k].front().first, std::pow(2 * std::numbers::pi * stage.ring_coupling->modes[k].frequency, 2)});
   return coupling;
+}
+
+/// Phase of the ring mesh of a planet at time 0, mesh cycles.
+double ring_mesh_phase(const PlanetaryStage& stage, int n) {
+  return value_or_zero(stage.ring_tooth_offset, n) - value_or_zero(stage.ring_phase_lag, n);
+}
+
+/// Compliance between the ring and the sun mesh of a planet, beyond what the laws for equal forces contain.
+Eigen::Matrix2d beyond_equal_forces(double compliance) {
+  return compliance * (Eigen::Matrix2d() << -1, 1, 1, -1).finished();
+}
+
+MeshCoupling through_planet(const PlanetaryStage& stage, int n) {
+  std::vector<Eigen::MatrixXd> matrices;
+  for (const double compliance : stage.planet_coupling) matrices.emplace_back(beyond_equal_forces(compliance));
+  return {{stage.planets() + n, n},
+          compliance_curves(matrices, static_cast<int>(stage.planet_coupling.size())),
+          {},
+          "planet_body"};
+}
+
+/// Ring meshes, then sun meshes. The curves through the ring are read at least as finely as those through the planets.
+MeshCoupling through_ring_and_planets(const PlanetaryStage& stage, MeshCoupling ring) {
+  const int planets = stage.planets(), phases = static_cast<int>(stage.planet_coupling.size());
+  const PeriodicCurve through_planet(stage.planet_coupling, phases);
+  const int given = stage.ring_coupling->per_cycle, finer = (phases + given - 1) / given, per_cycle = finer * given;
+  std::vector<Eigen::MatrixXd> matrices(stage.ring_coupling->compliance.size() * static_cast<std::size_t>(finer),
+                                        Eigen::MatrixXd::Zero(2 * planets, 2 * planets));
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    auto& matrix = matrices[i];
+    const double at = static_cast<double>(i) / per_cycle;
+    std::size_t entry = 0;
+    for (int row = 0; row < planets; ++row)
+      for (int column = 0; column <= row; ++column, ++entry)
+        matrix(row, column) = matrix(column, row) = ring.compliance[entry](at);
+    for (int n = 0; n < planets; ++n) {
+      const std::array<int, 2> own{n, planets + n};
+      const double later = ring_mesh_phase(stage, n) - ring_mesh_phase(stage, 0);
+      matrix(own, own) += beyond_equal_forces(through_planet(at + later));
+    }
+  }
+  ring.body = "ring_and_planets";
+  for (int n = 0; n < planets; ++n) ring.meshes.push_back(n);
+  ring.compliance = compliance_curves(matrices, per_cycle);
+  return ring;
+}
+
+void add_couplings(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const std::vector<LinearForm>& modes) {
+  const bool planets = !stage.planet_coupling.empty();
+  if (stage.ring_coupling) {
+    auto ring = through_ring(stage, modes);
+    return builder.add_mesh_coupling(planets ? through_ring_and_planets(stage, std::move(ring)) : std::move(ring));
+  }
+  for (int n = 0; planets && n < stage.planets(); ++n) builder.add_mesh_coupling(through_planet(stage, n));
 }
 
 StageForms add_bodies_in_plane(LumpedSystemBuilder& builder, const PlanetaryStage& stage) {
@@ -223,8 +281,6 @@ void spread_meshes(std::vector<MeshElement>& meshes, LumpedSystemBuilder& builde
   for (auto& tilt : tilts) meshes.push_back(std::move(tilt));
 }
 
-double value_or_zero(const std::vector<double>& values, int n) { return values.empty() ? 0.0 : values[n]; }
-
 }  // namespace
 
 LumpedSystem assemble(const PlanetaryStage& stage) {
@@ -271,14 +327,13 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
                           -value_or_zero(stage.sun_phase_lag, n), sun_mesh_errors(stage, n), stage.sun_tooth_errors,
                           n));
     ring_meshes.push_back(mesh("ring_planet" + number, ring_b, stage.ring_mesh, stage.ring, stage.ring_half_backlash,
-                               value_or_zero(stage.ring_tooth_offset, n) - value_or_zero(stage.ring_phase_lag, n),
-                               ring_mesh_errors(stage, n), stage.ring_tooth_errors, n));
+                               ring_mesh_phase(stage, n), ring_mesh_errors(stage, n), stage.ring_tooth_errors, n));
     if (housing) ring_meshes.back().moving = ring_shares(stage, ring, ring_modes, phi + ar);
   }
   for (auto& element : ring_meshes) meshes.push_back(std::move(element));
   if (stage.space) spread_meshes(meshes, builder, stage, bodies);
   for (auto& element : meshes) builder.add_mesh(std::move(element));
-  if (stage.ring_coupling) builder.add_mesh_coupling(coupling_of(stage, ring_modes));
+  add_couplings(builder, stage, ring_modes);
   for (int n = 0; n < stage.planets(); ++n)
     if (!stage.space && stage.planet_bearing(n).play > 0) add_bearing_with_play(builder, stage, bodies, n);
 

@@ -69,6 +69,17 @@ void check_coupling(const RingCoupling& coupling, const PlanetaryStage& stage) {
   }
 }
 
+void check_planet_coupling(const PlanetaryStage& stage) {
+  if (stage.planet_coupling.empty()) return;
+  const double sun = mean_tangent_stiffness(stage.sun_mesh), ring = mean_tangent_stiffness(stage.ring_mesh);
+  for (const double c : stage.planet_coupling)
+    if (!std::isfinite(c) || !(c * (sun + ring) < 1))
+      throw InputError(fmt::format(
+          "the meshes of a planet deflect each other by {:.4g} m/N through its rim: with their stiffnesses, "
+          "{:.4g} and {:.4g} N/m under equal forces, it has to be below {:.4g} m/N",
+          c, sun, ring, 1 / (sun + ring)));
+}
+
 /// rad/s, of the carrier against the ring: it sets the mesh frequency.
 double rolling_speed(const PlanetaryStage& s) { return s.carrier_speed - s.ring_speed; }
 
@@ -239,6 +250,7 @@ void PlanetaryStage::check() const {
   dynamics::check(sun_mesh, "sun-planet mesh");
   dynamics::check(ring_mesh, "ring-planet mesh");
   if (ring_coupling) check_coupling(*ring_coupling, *this);
+  check_planet_coupling(*this);
   if (space) space->check(planets());
   if (space && ring_coupling && !ring_coupling->modes.empty())
     throw InputError(fmt::format("a ring that moves along the axis and tilts has none of its {} elastic modes",

@@ -101,6 +101,10 @@ struct PlanetaryStage {
   /// still: the ring has no gyroscopic and centripetal terms, and the mesh vectors turn past it with the carrier. The
   /// axes of carrier and ring agree at time 0.
   std::shared_ptr<const RingCoupling> ring_coupling;
+  /// Coupling of the sun and the ring mesh of every planet through its rim, m/N: the deflection of one under the force
+  /// of the other. Over one cycle of the ring mesh; empty: none. The stiffnesses of both meshes hold for equal forces
+  /// and contain it: the deflection of the sun mesh is that of its law, and c (F_r - F_s).
+  std::vector<double> planet_coupling;
 
   /// Half the total normal backlash of the sun and of the ring meshes, m. Absent: the teeth never lose contact (a
   /// linear mesh, which also pulls).
