@@ -49,15 +49,36 @@ void check_random_input(const Scene& scene, const RandomVariable& variable, cons
                     tables.front().label()));
 }
 
+/// Why the branches of a sweep cannot be followed; empty where they can.
+std::string broken_branch(const Scene& scene, const SweepInput& sweep) {
+  if (find_input(scene, sweep.input).parameter->kind == Parameter::Kind::integer)
+    return "it is a whole number, and a branch runs through all values between";
+  const auto values = sweep.points();
+  for (const double value : {values.front(), values.back()}) {
+    const auto tables = tables_to_solve(scene, change_scene(scene, {{{sweep.input, value}}, "[[sweep]]", ""}));
+    if (!tables.empty())
+      return fmt::format(
+          "it changes the stiffness table of the {}, which every point of a branch would have to "
+          "compute again",
+          tables.front().label());
+  }
+  return "";
+}
+
 void check_directions(const Scene& scene) {
   const auto system = make_system(scene);
   for (std::size_t i = 0; i < scene.sweeps.size(); ++i) {
-    const auto direction = scene.sweeps[i].direction;
-    if (system->offers(direction)) continue;
-    throw InputError(fmt::format("{}: sweep.direction = \"{}\" is not offered for stages of kind {}; use \"{}\"",
-                                 place_text(scene, "sweep.direction", i),
-                                 direction_names.at(static_cast<std::size_t>(direction)), scene.stage.kind,
-                                 system->offers(SweepDirection::both) ? "both" : "each"));
+    const auto& sweep = scene.sweeps[i];
+    const auto refuse = [&](const std::string& why) {
+      throw InputError(fmt::format("{}: sweep.direction = \"{}\" {}; use \"{}\"",
+                                   place_text(scene, "sweep.direction", i),
+                                   direction_names.at(static_cast<std::size_t>(sweep.direction)), why,
+                                   system->offers(SweepDirection::both) ? "both" : "each"));
+    };
+    if (!system->offers(sweep.direction)) refuse("is not offered for stages of kind " + scene.stage.kind);
+    if (sweep.direction != SweepDirection::branches) continue;
+    if (const auto why = broken_branch(scene, sweep); !why.empty())
+      refuse(fmt::format("cannot follow {}: {}", sweep.input, why));
   }
 }
 
@@ -65,8 +86,8 @@ void check_directions(const Scene& scene) {
 
 void check_studies(const Scene& scene) {
   if (!scene.dynamics) return;
-  for (const auto& study_case : all_cases(scene)) (void)change_scene(scene, study_case);
   check_directions(scene);
+  for (const auto& study_case : all_cases(scene)) (void)change_scene(scene, study_case);
   const auto sampling = sampling_of(scene);
   if (!sampling) return;
   if (sampling->variables.empty())

@@ -150,4 +150,20 @@ BOOST_AUTO_TEST_CASE(directions_that_a_kind_does_not_offer_are_refused_by_check)
       refused.err);
 }
 
+BOOST_AUTO_TEST_CASE(branches_that_cannot_be_followed_are_refused_by_check) {
+  const test::TemporaryFolder folder("motions_4");
+  const auto refusal = [&](const std::string& sweep) {
+    write_file(folder.path() / "scene.toml", read_file(ANNULUS_SOURCE_DIR "/data/scenes/minimal.toml") +
+                                                 "\n[[sweep]]\ndirection = \"branches\"\n" + sweep);
+    const auto outcome = test::run_program(folder.path(), "check scene.toml");
+    BOOST_TEST(outcome.status != 0);
+    return outcome.err;
+  };
+  const auto whole = refusal("input = \"stage.planets\"\nvalues = [3, 4]\n");
+  BOOST_TEST(whole.find("cannot follow stage.planets: it is a whole number") != std::string::npos, whole);
+  const auto table = refusal("input = \"sun.bore_diameter_mm\"\nvalues = [40, 41]\n");
+  BOOST_TEST(table.find("cannot follow sun.bore_diameter_mm: it changes the stiffness table") != std::string::npos,
+             table);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
