@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,15 +22,21 @@
 #include "app/systems/planetary/statics.h"
 #include "benchmarks/calculix/contact_job.h"
 #include "benchmarks/calculix/stage_job.h"
-#include "benchmarks/calculix/stage_places.h"
 #include "benchmarks/stopwatch.h"
 #include "core/errors.h"
+#include "fem/body/resolution.h"
 #include "fem/problem/structures/pin_held.h"
+#include "geometry/sector_mesh.h"
 
 namespace {
 
 using namespace annulus;
+using benchmarks::FlankPair;
+using benchmarks::HubGear;
+using benchmarks::make_gear;
+using benchmarks::QuadraticBody;
 using benchmarks::StageJob;
+using geometry::Boundary;
 using geometry::PlanetarySet;
 
 /// Largest difference of a planet's share of the load, relative to the mean force, and of the sun's rotation.
@@ -110,13 +117,107 @@ struct Options {
   bool keep = false;
 };
 
+/// How sun, planets and ring stand in the frame of the ring at `cycles` mesh cycles, and which teeth are near contact
+/// (PlanetarySet::sun_phase_lag and the following).
+struct Place {
+  std::vector<double> planet_direction, planet_angle;  ///< rad, of the planets' axes and of their teeth 0
+  double sun_angle = 0;
+  std::vector<FlankPair> pairs;
+};
+Place place_at(const PlanetarySet& set, double cycles) {
+  const auto &sun = set.sun(), &planet = set.planet(), &ring = set.ring();
+  const auto &sun_mesh = set.sun_mesh(), &ring_mesh = set.ring_mesh();
+  const double pitch = planet.base_pitch();
+  const auto half = [](const geometry::Gear& gear, double working_angle) {
+    return gear.tooth_half_angle(gear.base_radius() / std::cos(working_angle));
+  };
+  const double sun_angle = sun_mesh.working_pressure_angle(), ring_angle = ring_mesh.working_pressure_angle();
+  const auto phase_of = [](double value) { return value - std::floor(value + 1e-12); };
+  const auto tooth = [](double value, int teeth) {
+    const double whole = std::round(value);
+    require(std::abs(value - whole) < 1e-6, "teeth are counted by whole numbers");
+    return ((static_cast<int>(whole) % teeth) + teeth) % teeth;
+  };
+  // Pairs so far beyond their path of contact do not touch: their gap is wider than the deflection of these meshes.
+  const double beyond_path = 0.13 * pitch;
+  const geometry::ToothProfile planet_profile(planet);
+  Place place;
+  for (int n = 0; n < set.planets(); ++n) {
+    const double ring_position = cycles - set.ring_phase_lag(n) + set.ring_tooth_offset(n);
+    const double direction = ring.pitch_angle() * ring_position + half(ring, ring_angle);
+    const double turned = cycles - set.sun_phase_lag(n);
+    if (n == 0) place.sun_angle = direction - half(sun, sun_angle) + sun.pitch_angle() * cycles;
+    const double angle = direction + std::numbers::pi - half(planet, sun_angle) - planet.pitch_angle() * turned;
+    place.planet_direction.push_back(direction);
+    place.planet_angle.push_back(angle);
+    const Eigen::Vector2d axis = Eigen::Rotation2Dd(direction) * Eigen::Vector2d(set.centre_distance(), 0);
+    for (const bool with_ring : {false, true}) {
+      const auto& mesh = with_ring ? ring_mesh : sun_mesh;
+      const double phase = phase_of(with_ring ? cycles - set.ring_phase_lag(n) : turned);
+      for (int k = -4; k <= 4; ++k) {
+        const double passed = phase + k;  // mesh cycles since the pitch point
+        // The planet is driven from its tip to its root by the sun, and drives the ring the other way.
+        const double roll = mesh.roll_length_pitch() + (with_ring ? passed : -passed) * pitch;
+        const double beyond = std::max(mesh.roll_length_low() - roll, roll - mesh.roll_length_high());
+        if (beyond > beyond_path) continue;
+        FlankPair pair;
+        pair.planet = n;
+        pair.with_ring = with_ring;
+        pair.planet_tooth = tooth(turned - passed - (with_ring ? set.cycles_from_sun_to_ring() : 0), planet.teeth());
+        pair.wheel_tooth =
+            with_ring
+                ? tooth(ring_position - passed, ring.teeth())
+                : tooth(passed - cycles + sun.teeth() * set.planet_angle(n) / (2 * std::numbers::pi), sun.teeth());
+        Eigen::Vector2d point =
+            planet_profile.flank_point(std::clamp(roll, mesh.roll_length_low(), mesh.roll_length_high()));
+        if (with_ring) point.y() = -point.y();
+        pair.place = axis + Eigen::Rotation2Dd(angle + pair.planet_tooth * planet.pitch_angle()) * point;
+        pair.reach = beyond > 0 ? 2 : 1;  // times Options::reach
+        place.pairs.push_back(pair);
+      }
+    }
+  }
+  return place;
+}
+
+/// One sector of the contact teeth. The peer's own: cells along the flank as long as half the width of the contact.
+geometry::Mesh sector(const geometry::Gear& gear, double support_radius, bool same_mesh) {
+  geometry::SectorResolution own;
+  own.flank_cells = 44, own.fillet_cells = 6, own.root_cells = 1, own.thickness_cells = 10, own.rim_cells = 8;
+  own.flank_layer = 0.15;
+  constexpr int level = 1;
+  return geometry::make_sector_mesh(gear, {support_radius, {}},
+                                    same_mesh ? fem::plane_resolution(gear, level).section : own);
+}
+
+QuadraticBody gear_body(const geometry::Gear& gear, double support_radius, bool same_mesh,
+                        const std::set<int>& contact_teeth) {
+  return make_gear(geometry::ToothProfile(gear), sector(gear, support_radius, same_mesh), support_radius,
+                   contact_teeth);
+}
+
 StageJob stage_job(const app::Scene& scene, const app::RingGeometry& ring, double cycles, const Options& options) {
   const auto& set = ring.set;
+  auto place = place_at(set, cycles);
+  std::set<int> sun_teeth, ring_teeth;
+  std::vector<std::set<int>> planet_teeth(set.planets());
+  for (auto& pair : place.pairs) {
+    pair.reach *= options.reach;
+    planet_teeth[pair.planet].insert(pair.planet_tooth);
+    (pair.with_ring ? ring_teeth : sun_teeth).insert(pair.wheel_tooth);
+  }
   StageJob job;
-  add_bodies(job, set,
-             {scene.sun.bore_diameter.value() / 2, scene.planet.bore_diameter.value() / 2, ring.outside_radius},
-             benchmarks::places_at(set, cycles, set.planets()), options.reach,
-             options.same_mesh ? benchmarks::PeerMesh::of_annulus : benchmarks::PeerMesh::own);
+  const double sun_bore = scene.sun.bore_diameter.value() / 2, planet_bore = scene.planet.bore_diameter.value() / 2;
+  job.sun.body = gear_body(set.sun(), sun_bore, options.same_mesh, sun_teeth);
+  job.sun.body.place(place.sun_angle, Eigen::Vector2d::Zero());
+  for (int n = 0; n < set.planets(); ++n) {
+    HubGear planet{gear_body(set.planet(), planet_bore, options.same_mesh, planet_teeth[n]),
+                   Eigen::Rotation2Dd(place.planet_direction[n]) * Eigen::Vector2d(set.centre_distance(), 0)};
+    planet.body.place(place.planet_angle[n], planet.axis);
+    job.planets.push_back(std::move(planet));
+  }
+  job.ring = gear_body(set.ring(), ring.outside_radius, options.same_mesh, ring_teeth);
+  job.ring_outside = ring.outside_radius;
   fem::PinHeld held;
   held.unilateral = false;
   held.angles = fem::equal_angles(bolts, 0);
@@ -129,6 +230,7 @@ StageJob stage_job(const app::Scene& scene, const app::RingGeometry& ring, doubl
   for (auto& site : job.ring_supports.sites) site.angle = -site.angle;
   job.planet_stiffness = bearing_stiffness;
   job.sun_torque = 1000;
+  job.pairs = std::move(place.pairs);
   job.contact_stiffness = options.contact_stiffness;
   job.threads = options.threads;
   return job;

@@ -4,7 +4,6 @@
 #include <fmt/os.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -12,7 +11,6 @@
 #include <map>
 #include <numbers>
 #include <sstream>
-#include <utility>
 
 #include "benchmarks/calculix/deck.h"
 #include "core/errors.h"
@@ -29,7 +27,6 @@ std::string real_field(double value) { return fmt::format("{:.9e}", value); }
 struct References {
   std::vector<int> centre, rotation;  ///< sun, then planets; a rotation is displacement 1 of its node
   std::vector<int> pin, site;
-  std::vector<std::vector<int>> patch;  ///< of the planets; displacement 1: outwards
 };
 
 class StageDeck {
@@ -40,11 +37,7 @@ class StageDeck {
     add_body(job.ring, "ring");
     add_references();
     hub(job.sun, 0);
-    for (std::size_t n = 0; n < job.planets.size(); ++n)
-      if (job.planets[n].rollers)
-        bed(job.planets[n], n);
-      else
-        hub(job.planets[n], n + 1);
+    for (std::size_t n = 0; n < job.planets.size(); ++n) hub(job.planets[n], n + 1);
     sites();
     material();
     contact();
@@ -76,10 +69,6 @@ class StageDeck {
       references_.rotation.push_back(add_reference());
       if (hub > 0) references_.pin.push_back(add_reference());
     }
-    for (const auto& planet : job_.planets) {
-      auto& patches = references_.patch.emplace_back();
-      for (int i = 0; planet.rollers && i < planet.rollers->patches; ++i) patches.push_back(add_reference());
-    }
     for (std::size_t i = 0; i < job_.ring_supports.sites.size(); ++i) references_.site.push_back(add_reference());
   }
   /// u = u_centre + phi x arm at every node of the bore.
@@ -93,18 +82,17 @@ class StageDeck {
                    deck_field(direction == 1 ? arm.y() : -arm.x()));
     }
   }
-  /// Shares of the nodes of a body's support in the mean displacement of a site, at angles about an axis.
-  [[nodiscard]] static std::map<int, double> shares(const QuadraticBody& body, const Eigen::Vector2d& axis,
-                                                    const fem::SupportSite& site) {
+  /// Shares of the nodes of the ring's outside in the mean displacement of a site.
+  [[nodiscard]] std::map<int, double> shares(const fem::SupportSite& site) const {
     std::map<int, double> result;
     constexpr std::array<std::pair<double, double>, 3> gauss{
         {{-0.774596669241483, 5.0 / 9}, {0, 8.0 / 9}, {0.774596669241483, 5.0 / 9}}};
-    for (const auto& side : body.sides) {
+    for (const auto& side : job_.ring.sides) {
       if (side.boundary != Boundary::support) continue;
-      const auto& cell = body.cells[side.cell];
+      const auto& cell = job_.ring.cells[side.cell];
       const std::array<int, 3> nodes{cell[side.number], cell[4 + side.number], cell[(side.number + 1) % 4]};
       const auto angle = [&](int node) {
-        const Eigen::Vector2d p = body.nodes[node] - axis;
+        const auto& p = job_.ring.nodes[node];
         return std::remainder(std::atan2(p.y(), p.x()) - site.angle, 2 * std::numbers::pi);
       };
       const double from = angle(nodes[0]), to = angle(nodes[2]);
@@ -133,94 +121,39 @@ class StageDeck {
         const auto& direction = site.directions[d];
         require(!direction.unilateral && direction.clearance == 0, "supports of the peer are two-sided springs");
         const double angle = site.angle + std::numbers::pi - std::atan2(direction.counter_clockwise, direction.inward);
-        const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
-        std::map<int, Eigen::Vector2d> terms;
-        for (const auto& [node, share] : shares(job_.ring, Eigen::Vector2d::Zero(), site)) terms[node] = share * along;
-        equation(references_.site[i], static_cast<int>(d) + 1, first, terms);
+        const auto all = shares(site);
+        out_.print("*EQUATION\n{}\n{}, {}, -1.", 1 + 2 * all.size(), references_.site[i], d + 1);
+        int column = 1;
+        for (const auto& [node, share] : all)
+          for (const int axis : {1, 2}) {
+            out_.print("{}{}, {}, {}", column++ % 4 == 0 ? "\n" : ", ", first + node + 1, axis,
+                       deck_field(share * (axis == 1 ? std::cos(angle) : std::sin(angle))));
+          }
+        out_.print("\n");
       }
     }
-  }
-  /// A displacement of a reference node is the sum of factor . displacement of the nodes of a body.
-  void equation(int reference, int direction, int first, const std::map<int, Eigen::Vector2d>& terms) {
-    out_.print("*EQUATION\n{}\n{}, {}, -1.", 1 + 2 * terms.size(), reference, direction);
-    int column = 1;
-    for (const auto& [node, factor] : terms)
-      for (const int axis : {1, 2})
-        out_.print("{}{}, {}, {}", column++ % 4 == 0 ? "\n" : ", ", first + node + 1, axis,
-                   deck_field(factor[axis - 1]));
-    out_.print("\n");
-  }
-  void bed(const HubGear& gear, std::size_t planet) {
-    const auto& rollers = *gear.rollers;
-    const auto& part = parts_[planet + 1];
-    const double spacing = 2 * std::numbers::pi / rollers.patches;
-    for (int i = 0; i < rollers.patches; ++i) {
-      const fem::SupportSite patch{rollers.first_angle + i * spacing, spacing / 2, false, {}};
-      const Eigen::Vector2d outwards(std::cos(patch.angle), std::sin(patch.angle));
-      std::map<int, Eigen::Vector2d> terms;
-      for (const auto& [node, share] : shares(gear.body, gear.axis, patch)) terms[node] = share * outwards;
-      equation(references_.patch[planet][i], 1, part.first_node, terms);
-    }
-    std::map<int, Eigen::Vector2d> turning;
-    for (const double middle : {0.0, std::numbers::pi})  // both halves
-      for (const auto& [node, share] : shares(gear.body, gear.axis, {middle, std::numbers::pi / 2, false, {}})) {
-        const Eigen::Vector2d arm = (gear.body.nodes[node] - gear.axis) / deck_mm;
-        const Eigen::Vector2d term = share / 2 / arm.squaredNorm() * Eigen::Vector2d(-arm.y(), arm.x());
-        const auto [place, added] = turning.emplace(node, term);
-        if (!added) place->second += term;
-      }
-    // A rotation may be prescribed: it must not be what the equation determines.
-    const auto first = turning.begin();
-    const int axis = std::abs(first->second.x()) > std::abs(first->second.y()) ? 1 : 2;
-    out_.print("*EQUATION\n{}\n{}, {}, {}, {}, 1, -1.", 1 + 2 * turning.size(), part.first_node + first->first + 1,
-               axis, deck_field(first->second[axis - 1]), references_.rotation[planet + 1]);
-    int column = 2;
-    for (const auto& [node, factor] : turning)
-      for (const int direction : {1, 2}) {
-        if (node == first->first && direction == axis) continue;
-        out_.print("{}{}, {}, {}", column++ % 4 == 0 ? "\n" : ", ", part.first_node + node + 1, direction,
-                   deck_field(factor[direction - 1]));
-      }
-    out_.print("\n");
   }
   void spring(const std::string& name, const std::string& type, const std::vector<std::vector<int>>& ends,
               int direction, double stiffness) {
     out_.print("*ELEMENT, TYPE={}, ELSET={}\n", type, name);
     for (const auto& nodes : ends) out_.print("{}, {}\n", ++cells_, fmt::join(nodes, ", "));
     out_.print("*SPRING, ELSET={}\n{}{}\n{}\n", name, direction,
-               ends.front().size() == 2 ? fmt::format(", {}", direction) : "", real_field(per_slice(stiffness)));
+               ends.front().size() == 2 ? fmt::format(", {}", direction) : "",
+               real_field(stiffness * slice_width * deck_mm / job_.face_width * deck_mm));
   }
   void material() {
     for (const int direction : {1, 2}) {
       std::vector<std::vector<int>> bearings;
       for (std::size_t n = 0; n < job_.planets.size(); ++n)
-        if (!job_.planets[n].rollers) bearings.push_back({references_.centre[n + 1], references_.pin[n]});
-      if (!bearings.empty())
-        spring(fmt::format("bearing{}", direction), "SPRING2", bearings, direction, job_.planet_stiffness);
+        bearings.push_back({references_.centre[n + 1], references_.pin[n]});
+      spring(fmt::format("bearing{}", direction), "SPRING2", bearings, direction, job_.planet_stiffness);
       for (std::size_t i = 0; i < references_.site.size(); ++i)
         spring(fmt::format("site{}x{}", i, direction), "SPRING1", {{references_.site[i]}}, direction,
                job_.ring_supports.sites[i].directions.at(direction - 1).total_stiffness());
     }
-    for (std::size_t n = 0; n < job_.planets.size(); ++n)
-      if (job_.planets[n].rollers) roller_springs(*job_.planets[n].rollers, n);
     std::vector<std::string> names;
     for (const auto& part : parts_) names.push_back(part.name);
     write_material(out_, job_.material, names);
-  }
-  /// N per slice, from N/m of the whole width and mm.
-  [[nodiscard]] double per_slice(double stiffness) const {
-    return stiffness * slice_width * deck_mm / job_.face_width * deck_mm;
-  }
-  void roller_springs(const RollerBed& rollers, std::size_t planet) {
-    constexpr double unloaded = 1e-6, reach = 1;  // of the stiffness; mm
-    const double k = per_slice(rollers.stiffness), play = rollers.play / deck_mm;
-    out_.print("*ELEMENT, TYPE=SPRING1, ELSET=bed{}\n", planet);
-    for (const int patch : references_.patch[planet]) out_.print("{}, {}\n", ++cells_, patch);
-    out_.print("*SPRING, ELSET=bed{}, NONLINEAR\n1\n", planet);
-    for (const auto& [force, displacement] : {std::pair{-k * (reach + unloaded * play), -play - reach},
-                                              {-unloaded * k * play, -play},
-                                              {unloaded * k * reach, reach}})
-      out_.print("{}, {}\n", real_field(force), real_field(displacement));
   }
   void surface(const std::string& name, const Part& part, Boundary flank, int tooth, const FlankPair& pair,
                double reach) {
@@ -252,7 +185,7 @@ class StageDeck {
     out_.print("*STEP, INC=100\n*STATIC, DIRECT\n1., 1.\n*BOUNDARY, OP=NEW\n{}, 1, 3\n", references_.centre.front());
     for (std::size_t hub = 0; hub < references_.rotation.size(); ++hub) {
       out_.print("{}, 2, 3\n", references_.rotation[hub]);
-      if (hub > 0) out_.print("{}, {}, 3\n", references_.centre[hub], job_.planets[hub - 1].rollers ? 1 : 3);
+      if (hub > 0) out_.print("{}, 3, 3\n", references_.centre[hub]);
       if (!step.rotations.empty())
         out_.print("{}, 1, 1, {}\n", references_.rotation[hub], deck_field(step.rotations.at(hub)));
     }
@@ -262,15 +195,10 @@ class StageDeck {
                  deck_field(error.y() / deck_mm));
     }
     for (const int site : references_.site) out_.print("{}, 3, 3\n", site);
-    if (references_.site.empty())
-      for (const int node : job_.ring.nodes_on(Boundary::support))
-        out_.print("{}, 1, 2\n", parts_.back().first_node + node + 1);
-    for (const auto& patches : references_.patch)
-      for (const int patch : patches) out_.print("{}, 2, 3\n", patch);
     if (step.rotations.empty())  // N mm per slice
       out_.print("*CLOAD{}\n{}, 1, {}\n", first ? "" : ", OP=NEW", references_.rotation.front(),
                  deck_field(job_.sun_torque / deck_mm * slice_width * deck_mm / job_.face_width));
-    out_.print("*NODE PRINT, NSET=references\nU, RF\n*END STEP\n");
+    out_.print("*NODE PRINT, NSET=references\nU\n*END STEP\n");
   }
 
   const StageJob& job_;
@@ -280,9 +208,8 @@ class StageDeck {
   int nodes_ = 0, cells_ = 0;
 };
 
-/// Displacements (mm, or rad) or forces (N, or N mm) of the reference nodes at the end of every step.
-std::vector<std::map<int, Eigen::Vector2d>> read_references(const std::filesystem::path& file,
-                                                            const std::string& quantity) {
+/// Displacements (mm, or rad) of the reference nodes at the end of every step.
+std::vector<std::map<int, Eigen::Vector2d>> read_displacements(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::vector<std::map<int, Eigen::Vector2d>> steps;
   std::string line;
@@ -290,8 +217,7 @@ std::vector<std::map<int, Eigen::Vector2d>> read_references(const std::filesyste
   const std::string heading = "for set REFERENCES and time";
   while (std::getline(in, line)) {
     if (const auto found = line.find(heading); found != std::string::npos) {
-      wanted = line.find(quantity) != std::string::npos &&
-               std::stod(line.substr(found + heading.size())) == static_cast<double>(steps.size() + 1);
+      wanted = std::stod(line.substr(found + heading.size())) == static_cast<double>(steps.size() + 1);
       if (wanted) steps.emplace_back();
       continue;
     }
@@ -319,24 +245,15 @@ StageJobResult run_calculix(const StageJob& job, const std::filesystem::path& fo
   result.cpu_seconds = run.cpu_seconds;
   result.iterations = run.iterations;
   result.failure = run.failure;
-  const auto steps = read_references(folder / "job.dat", "displacements"),
-             forces = read_references(folder / "job.dat", "forces");
+  const auto steps = read_displacements(folder / "job.dat");
   if (result.failure.empty() && steps.size() != job.steps.size())
     result.failure = "ccx did not finish, see " + (folder / "job.log").string();
   if (!result.failure.empty()) return result;
   for (const auto& step : steps) {
     auto& state = result.states.emplace_back();
     state.sun_rotation = step.at(references.rotation.front()).x();
-    const auto& forces_of_step = forces.at(result.states.size() - 1);
-    for (const int rotation : references.rotation)
-      state.torques.push_back(deck_mm * forces_of_step.at(rotation).x() * job.face_width / (slice_width * deck_mm));
     for (std::size_t n = 0; n < job.planets.size(); ++n) {
       state.planet_rotations.push_back(step.at(references.rotation[n + 1]).x());
-      auto& rollers = state.rollers.emplace_back();
-      for (const int patch : references.patch[n]) {
-        const double inwards = -deck_mm * step.at(patch).x() - job.planets[n].rollers->play;
-        rollers.push_back(job.planets[n].rollers->stiffness * std::max(inwards, 0.0));
-      }
       state.pin_forces.emplace_back(job.planet_stiffness * deck_mm *
                                     (step.at(references.pin[n]) - step.at(references.centre[n + 1])));
     }
