@@ -44,7 +44,7 @@ struct MeshElement {
   std::vector<MovingShare> moving;  ///< at most one per DOF
 };
 
-/// Meshes that act on each other through a common elastic body (the ring, a planet). The law of mesh i acts on the
+/// Meshes that act on each other through a common elastic body: the ring, or a planet. The law of mesh i acts on the
 /// deflection
 ///   delta_i - sum_j D_ij(t) F_j,
 /// so the forces F solve a system of equations. F is the elastic force alone: dampers of the meshes act on the approach

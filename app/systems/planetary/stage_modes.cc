@@ -65,7 +65,7 @@ MeshStiffnessErrors stiffness_errors(const MeshResult& sun_mesh, const MeshResul
   MeshStiffnessErrors errors = {{.groups = {sun_planet}, .relative = sun.error_relative, .parts = sun.parts},
                                 {.groups = {ring_planet}, .relative = ring.error_relative, .parts = ring.parts}};
   if (!ring_mesh.coupling) return errors;
-  auto& elastic = errors.emplace_back(dynamics::GroupError{.groups = {"ring_mode", "ring_body"},
+  auto& elastic = errors.emplace_back(dynamics::GroupError{.groups = {"ring_mode", "ring_body", "ring_and_planets"},
                                                            .relative = ring_mesh.coupling->frequency_error_relative,
                                                            .sensitivity = 1});
   elastic.parts.model = fem::plane_strain_bounds(*ring_mesh.model.problem).frequency;
