@@ -43,8 +43,8 @@ void warn_of_coupling_left_out(std::vector<Warning>& list, const Scene& scene) {
   if (sun && ring) return;
   list.push_back({"planet_coupling_left_out", Severity::warning,
                   "in motion the two meshes of a planet do not act on each other through its rim, because the "
-                  "stiffness of one is prescribed. Natural frequencies in which the planets turn are too low or too "
-                  "high; compute both meshes"});
+                  "stiffness of one is prescribed. The natural frequencies of modes in which the planets turn are then "
+                  "wrong. Let both meshes be computed"});
 }
 
 }  // namespace annulus::app
