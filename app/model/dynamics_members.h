@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/bytes.h"
+#include "dynamics/figures/shaft_results.h"
 #include "dynamics/steady_state/branches.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "dynamics/system/mesh_excitation.h"
@@ -55,6 +56,9 @@ ANNULUS_MEMBERS(dynamics::SimulationOptions, steady_state, confirmation, samplin
                 periodic, integrator, start, mesh_cycles, steady_tolerance, max_windows, samples, min_window,
                 max_window, estimate_error, other_motions);
 
+ANNULUS_MEMBERS(dynamics::Rotor, name, on, inertia, shaft_stiffness, shaft_damping_ratio, half_backlash);
+ANNULUS_MEMBERS(dynamics::ShaftResult, name, on, nominal_torque, mean_torque, smallest_torque, largest_torque,
+                contact_loss);
 ANNULUS_MEMBERS(dynamics::PeriodicSolution, method, converged, trouble, residual, newton_iterations, linear_iterations,
                 sampling_difference, largest_multiplier);
 ANNULUS_MEMBERS(dynamics::IntegratorChoice, method, reason, stability_step, implicit_step, explicit_steps,

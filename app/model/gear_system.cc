@@ -27,6 +27,7 @@ Plan GearSystem::plan(int threads) const {
   plan.meshes = meshes();
   plan.studies = plan_studies(scene_);
   describe(plan);
+  for (const auto& rotor : scene_.rotors) plan.dofs.push_back({rotor.name + " u", true, "turns on its shaft"});
   plan.cost = cost(threads).at_pace(machine_pace());
   plan.warnings = scene_warnings();
   for (auto& warning : common_warnings(scene_, plan)) plan.warnings.push_back(std::move(warning));

@@ -33,6 +33,14 @@ struct RunVariant {
   std::vector<std::size_t> tables;  ///< those it stands on, by their places in GearSystem::run_meshes
 };
 
+/// A body that turns about its axis, to which a shaft can lead; speed and torque in the sense of its coordinate: their
+/// product is the power that it takes up.
+struct TurningBody {
+  std::string name;
+  double radius = 0;             ///< m, of its coordinate
+  double speed = 0, torque = 0;  ///< rad/s, N m
+};
+
 /// A gear system of a scene: what one kind of them answers to the commands, which know no kind. A new kind is a class
 /// of this sort in a folder of its own and a line in systems/registry.cc.
 class GearSystem {
@@ -89,6 +97,13 @@ class GearSystem {
   [[nodiscard]] virtual std::optional<CostRun> actual_coupling(CostRun /*size*/, const MeshResult& /*mesh*/) const {
     return std::nullopt;
   }
+
+  /// Bodies at which it can be part of a train; the lumped models then have LumpedModel::Abilities::lumped. Empty: it
+  /// cannot.
+  [[nodiscard]] virtual std::vector<TurningBody> turning_bodies() const { return {}; }
+  /// The lumped model with rough stiffnesses, before anything is solved, of a system with such bodies: for the cost of
+  /// a train.
+  [[nodiscard]] virtual std::optional<dynamics::LumpedCase> rough_lumped() const { return std::nullopt; }
 
   /// Whether the motions of a sweep can be found in this way.
   [[nodiscard]] virtual bool offers(SweepDirection direction) const { return direction == SweepDirection::each; }

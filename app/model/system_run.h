@@ -14,6 +14,7 @@
 #include "app/scene/reference.h"
 #include "core/figure.h"
 #include "core/log.h"
+#include "dynamics/figures/shaft_results.h"
 #include "dynamics/steady_state/other_motions.h"
 
 namespace annulus::app {
@@ -25,6 +26,7 @@ struct RunResponse {
   virtual ~RunResponse() = default;
   FigureSet figures{};  ///< results by their keys, with errors
   dynamics::FoundMotions motions{};
+  std::vector<dynamics::ShaftResult> shafts{};  ///< of the rotors
   bool reused = false;
   double seconds = 0;  ///< wall; little when it was read back
 };

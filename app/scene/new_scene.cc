@@ -80,6 +80,7 @@ std::string toml_text(const Value& value) {
 
 NewValues example_values(const std::string& kind) {
   NewValues values;
+  if (!scene_kind(kind).gears) return {{"title", {quoted(kind)}}, {"stage.kind", {quoted(kind)}}};
   for (const auto& input : parse_scene(scene_kind(kind).example, "example.toml").inputs) {
     const auto* p = find_parameter(input.key);
     if (p == nullptr || input.origin != Origin::scene || input.entry > 0 || is_study_table(p->table)) continue;

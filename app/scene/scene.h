@@ -33,6 +33,8 @@ struct Scene : PlanetaryInput, PairInput, TwoKVInput, StudyInput {
   ErrorInput errors;
   MeshInput sun_planet;
   std::optional<DynamicsInput> dynamics;  ///< absent: no dynamics wanted
+  std::vector<RotorInput> rotors;
+  std::vector<std::string> further_files;  ///< that files of it name, relative to it
 
   /// The file as read, from which changed scenes are made (overrides.h). Empty in a changed scene, which has no studies
   /// of its own.

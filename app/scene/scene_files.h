@@ -16,8 +16,8 @@ namespace annulus::app {
 /// The same; errors give the reason alone, without place and key.
 [[nodiscard]] std::filesystem::path file_below_scene(const Scene& scene, const std::string& name);
 
-/// The files that inputs name, but for the reference: tables (mesh.NAME.file) and measured flanks, relative to the
-/// scene.
+/// The files that inputs name, but for the reference: tables (mesh.NAME.file), measured flanks, scenes of parts and the
+/// files that those name; relative to the scene.
 [[nodiscard]] std::vector<std::string> input_files(const Scene& scene);
 
 /// The stiffness table in the file that [mesh.NAME] names. Throws InputError, with place and key, when it cannot be

@@ -22,8 +22,13 @@ struct SceneKind {
   /// Results that a search can optimise, by name.
   std::vector<std::string> (*results)() = nullptr;
 
-  /// A complete scene of this kind, from which `annulus new` starts.
+  /// A complete scene of this kind, from which `annulus new` starts; none of kinds without gears, whose parts are
+  /// files.
   const char* example = "";
+
+  /// Whether it has gears of its own: module, face width, backlash, material. Else [stage] has its kind alone of the
+  /// common keys, there is no [material], and [dynamics] has no keys of meshes.
+  bool gears = true;
 };
 
 /// The registered kinds, in the order of the documentation. Defined in app/scene_kinds.cc, above the kinds: nothing in

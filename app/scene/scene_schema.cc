@@ -22,11 +22,26 @@ auto by_name(List& parameters, const std::string& name) {
   return std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == name; });
 }
 
+/// Leaves out what belongs to gears.
+void drop_gears(std::vector<Table>& tables) {
+  tables.erase(by_path(tables, "material"));
+  auto& stage = by_path(tables, "stage")->parameters;
+  stage.erase(std::remove_if(stage.begin(), stage.end(), [](const Parameter& p) { return p.name != "kind"; }),
+              stage.end());
+}
+void drop_meshes(std::vector<Table>& tables) {
+  auto& dynamics = by_path(tables, "dynamics")->parameters;
+  for (const auto* name : {"half_backlash_um", "mesh_damping_ratio", "mesh_damping", "load_dependence"})
+    dynamics.erase(by_name(dynamics, name));
+}
+
 /// The common tables with the keys of one kind added, its own tables between them.
 std::vector<Table> tables_of(const SceneKind& kind) {
   auto tables = first_common_tables();
+  if (!kind.gears) drop_gears(tables);
   auto own = static_cast<std::ptrdiff_t>(tables.size());
   auto last = last_common_tables();
+  if (!kind.gears) drop_meshes(last);
   std::move(last.begin(), last.end(), std::back_inserter(tables));
   for (auto& table : kind.tables()) {
     const auto common = by_path(tables, table.path);

@@ -9,6 +9,7 @@
 #include "app/model/run_warnings.h"
 #include "app/results/content_id.h"
 #include "app/sections/report_parts.h"
+#include "app/sections/shafts.h"
 
 namespace annulus::app {
 
@@ -230,6 +231,7 @@ Page run_page(const SystemRun& run, const RunPage& page) {
            page.results,
            {spread_section(run.studies)},
            page.sections,
+           {shafts_section(run)},
            study_sections(scene, run.studies),
            {fields_section(page.meshes)},
            page.geometry,

@@ -3,6 +3,7 @@
 #include "app/model/gear_system.h"
 #include "app/systems/helical_pair/pair_system.h"
 #include "app/systems/planetary/planetary_system.h"
+#include "app/systems/train/train_system.h"
 #include "app/systems/two_k_v/two_k_v_system.h"
 
 namespace annulus::app {
@@ -10,7 +11,7 @@ namespace annulus::app {
 namespace {
 
 std::vector<SystemKind>& registered_kinds() {
-  static std::vector<SystemKind> kinds = {planetary_kind(), helical_pair_kind(), two_k_v_kind()};
+  static std::vector<SystemKind> kinds = {planetary_kind(), helical_pair_kind(), two_k_v_kind(), train_kind()};
   return kinds;
 }
 

@@ -279,7 +279,7 @@ class Tracer {
     here.balance.meshes().evaluate_at_instants(approach, here.balance.rate_of(approach), force, contact);
     BranchPoint result{.input = value(point)};
     for (Eigen::Index m = 0; m < meshes_; ++m) {
-      if (!here.lumped.system.is_whole_mesh(static_cast<int>(m))) continue;
+      if (!here.lumped.system.is_gear_mesh(static_cast<int>(m))) continue;
       result.largest_force = std::max(result.largest_force, force.col(m).cwiseAbs().maxCoeff());
       const auto begin = contact.begin() + m * samples;
       result.contact_loss = std::max(

@@ -52,7 +52,9 @@ double periods_alive(const IntegratorChoice& choice, double relative_tolerance, 
 /// A stiffness that varies, however smoothly, keeps the fast motion of a pair alive. Among many meshes it does not
 /// show.
 bool varies(const LumpedSystem& system) {
-  return system.meshes().size() == 1 && !std::holds_alternative<ConstantStiffness>(system.meshes().front().excitation);
+  int gear_meshes = 0;
+  for (int m = 0; m < static_cast<int>(system.meshes().size()); ++m) gear_meshes += system.is_gear_mesh(m) ? 1 : 0;
+  return gear_meshes == 1 && !std::holds_alternative<ConstantStiffness>(system.meshes().front().excitation);
 }
 
 /// Steps of a fifth-order method over those at the tolerance at which they were counted.

@@ -26,13 +26,22 @@ struct Block {
   Eigen::VectorXd open;       ///< share of the time without contact, by mesh
 };
 
+/// Those in which the forces of a motion are stated: of the gears, else of the shafts.
+std::vector<Eigen::Index> leading(const LumpedSystem& system, const std::vector<int>& meshes) {
+  std::vector<Eigen::Index> gears;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    if (system.is_gear_mesh(meshes[i])) gears.push_back(static_cast<Eigen::Index>(i));
+  if (gears.empty())
+    for (std::size_t i = 0; i < meshes.size(); ++i) gears.push_back(static_cast<Eigen::Index>(i));
+  return gears;
+}
+
 /// Where a start leads to.
 struct Followed {
   Block last;
   int period = 0;  ///< 0: irregular
   bool decided = false;
   SystemState state;
-  [[nodiscard]] double largest_force() const { return std::max(last.high.maxCoeff(), -last.low.minCoeff()); }
 };
 
 /// Largest and smallest force and loss of contact of every mesh, in rising order: planets may change places.
@@ -47,7 +56,11 @@ std::vector<std::array<double, 3>> features(const Block& b, double scale) {
 class Follower {
  public:
   Follower(const LumpedSystem& system, const SteadyProblem& problem, const IntegratorOptions& integrator)
-      : system_(system), problem_(problem), integrator_(integrator), meshes_(meshes_with_backlash(system)) {}
+      : system_(system),
+        problem_(problem),
+        integrator_(integrator),
+        meshes_(meshes_with_backlash(system)),
+        leading_(leading(system, meshes_)) {}
 
   [[nodiscard]] Followed follow(const SystemState& start) const {
     ResponseRun run(system_, problem_.mesh_frequency, force_samples, integrator_);
@@ -69,6 +82,11 @@ class Follower {
     if (result.period > 0) result.decided = true;
     return result;
   }
+
+  [[nodiscard]] double largest_force(const Followed& f) const {
+    return std::max(f.last.high(leading_, Eigen::all).maxCoeff(), -f.last.low(leading_, Eigen::all).minCoeff());
+  }
+  [[nodiscard]] double contact_loss(const Followed& f) const { return f.last.open(leading_).maxCoeff(); }
 
   /// All irregular motions are one.
   [[nodiscard]] bool same(const Followed& a, const Followed& b) const {
@@ -174,6 +192,7 @@ class Follower {
   const SteadyProblem& problem_;
   IntegratorOptions integrator_;
   std::vector<int> meshes_;
+  std::vector<Eigen::Index> leading_;
 };
 
 }  // namespace
@@ -207,14 +226,14 @@ StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& pr
     auto& motions = result.found.list;
     if (number == examples.size()) {
       examples.push_back(i);
-      motions.push_back({f.period, f.largest_force(), f.last.open.maxCoeff(), 0, i == 0});
+      motions.push_back({f.period, follower.largest_force(f), follower.contact_loss(f), 0, i == 0});
     }
     auto& motion = motions[number];
     if (i > 0) ++motion.starts;
     // Irregular motions show their largest forces now and then.
     if (f.period == 0) {
-      motion.largest_force = std::max(motion.largest_force, f.largest_force());
-      motion.contact_loss = std::max(motion.contact_loss, f.last.open.maxCoeff());
+      motion.largest_force = std::max(motion.largest_force, follower.largest_force(f));
+      motion.contact_loss = std::max(motion.contact_loss, follower.contact_loss(f));
     }
   }
   std::vector<std::size_t> order(examples.size());

@@ -282,7 +282,7 @@ void look_for_other_motions(const LumpedSystem& system, const SteadyProblem& pro
   const auto largest_force = [&](const ResponseWindow& window) {
     double largest = 0;
     for (Eigen::Index m = 0; m < window.force.rows(); ++m)
-      if (system.is_whole_mesh(static_cast<int>(m)))
+      if (system.is_gear_mesh(static_cast<int>(m)))
         largest = std::max(largest, window.force.row(m).cwiseAbs().maxCoeff());
     return largest;
   };

@@ -78,6 +78,8 @@ bool LumpedSystem::is_whole_mesh(int mesh) const {
          std::none_of(faces_.begin(), faces_.end(), [mesh](const auto& face) { return face.tilt == mesh; });
 }
 
+bool LumpedSystem::is_gear_mesh(int mesh) const { return is_whole_mesh(mesh) && !meshes_[mesh].shaft; }
+
 Eigen::VectorXd LumpedSystem::mesh_vector(int mesh, double t) const {
   const MeshElement& element = meshes_[mesh];
   Eigen::VectorXd b = Eigen::VectorXd::Zero(dofs());

@@ -42,6 +42,7 @@ struct MeshElement {
   std::vector<HarmonicError> errors;
   std::vector<ToothError> tooth_errors;
   std::vector<MovingShare> moving;  ///< at most one per DOF
+  bool shaft = false;               ///< a shaft with its couplings, which has no teeth
 };
 
 /// Meshes that act on each other through a common elastic body: the ring, or a planet. The law of mesh i acts on the
@@ -177,6 +178,7 @@ class LumpedSystem {
   [[nodiscard]] const std::vector<BearingElement>& bearings() const { return bearings_; }
   [[nodiscard]] const std::vector<FaceElement>& faces() const { return faces_; }
   [[nodiscard]] bool is_whole_mesh(int mesh) const;  ///< neither a component of a bearing nor the tilt of a mesh
+  [[nodiscard]] bool is_gear_mesh(int mesh) const;   ///< whole, and no shaft
   /// Whether the force of some mesh depends on the deflection of another.
   [[nodiscard]] bool has_coupled_meshes() const { return !couplings_.empty() || !bearings_.empty() || !faces_.empty(); }
 
@@ -234,6 +236,9 @@ class LumpedSystem {
 /// Collects bodies, supports, couplings and meshes of any system.
 class LumpedSystemBuilder {
  public:
+  /// Adds a system as it is: its DOFs and meshes stand behind those that are there, with `prefix` in front of all
+  /// names.
+  void add(const LumpedSystem& system, const std::string& prefix = {});
   /// Adds a DOF; its form is {{index, 1}}.
   LinearForm add_dof(const std::string& name);
   /// Adds mass (kg, or inertia / radius^2) to the coordinate: M += m a a^T.

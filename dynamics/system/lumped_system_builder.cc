@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/errors.h"
 #include "dynamics/system/lumped_system.h"
@@ -24,6 +25,56 @@ LinearForm operator*(double factor, const LinearForm& a) {
   LinearForm scaled = a;
   for (auto& term : scaled) term.second *= factor;
   return scaled;
+}
+
+void LumpedSystemBuilder::add(const LumpedSystem& system, const std::string& prefix) {
+  const int dofs = static_cast<int>(names_.size()), meshes = static_cast<int>(meshes_.size());
+  const auto moved = [dofs](LinearForm form) {
+    for (auto& term : form) term.first += dofs;
+    return form;
+  };
+  for (const auto& name : system.names_) names_.push_back(prefix + name);
+  for (auto mesh : system.meshes_) {
+    mesh.name = prefix + mesh.name;
+    mesh.b = moved(std::move(mesh.b));
+    for (auto& share : mesh.moving) share.dof += dofs;
+    meshes_.push_back(std::move(mesh));
+  }
+  for (auto coupling : system.couplings_) {
+    for (int& mesh : coupling.meshes) mesh += meshes;
+    for (auto& mode : coupling.retained) mode.dof += dofs;
+    coupling.body = prefix + coupling.body;
+    couplings_.push_back(std::move(coupling));
+  }
+  for (auto bearing : system.bearings_) {
+    bearing.first += meshes;
+    bearing.second += meshes;
+    bearings_.push_back(bearing);
+  }
+  for (auto face : system.faces_) {
+    face.approach += meshes;
+    face.tilt += meshes;
+    faces_.push_back(std::move(face));
+  }
+  for (auto spring : system.springs_) {
+    spring.name = prefix + spring.name;
+    spring.a = moved(std::move(spring.a));
+    springs_.push_back(std::move(spring));
+  }
+  for (const auto& [matrix, terms] : {std::pair{&system.mass_, &mass_},
+                                      {&system.stiffness_, &stiffness_},
+                                      {&system.rotating_stiffness_, &rotating_stiffness_},
+                                      {&system.damping_, &damping_},
+                                      {&system.gyroscopic_, &gyroscopic_}})
+    for (Eigen::Index i = 0; i < matrix->rows(); ++i)
+      for (Eigen::Index j = 0; j < matrix->cols(); ++j)
+        if (const double value = (*matrix)(i, j); value != 0)
+          terms->push_back({moved({{static_cast<int>(i), 1.0}}), moved({{static_cast<int>(j), 1.0}}), value});
+  for (int i = 0; i < system.dofs(); ++i) {
+    load_.emplace_back(moved({{i, 1.0}}), system.load_[i]);
+    for (const auto& load : system.harmonic_loads_)
+      add_harmonic_load(moved({{i, 1.0}}), load.rate, load.cosine[i], load.sine[i]);
+  }
 }
 
 LinearForm LumpedSystemBuilder::add_dof(const std::string& name) {

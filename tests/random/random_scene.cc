@@ -230,6 +230,7 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"tilt_inertia.*", "of stages in space"},
       {"statics.*", "of annulus statics alone"},
       {"dynamics.mesh_cycles", "a length of motion, without a steady state"},
+      {"rotor.*", "put on a body that turns"},
   };
   return keys;
 }
@@ -247,6 +248,29 @@ void put_planets_on_rollers(Draw& draw, const std::string& model, GearSet& set) 
   set.chances["supports.planet_radial_N_per_m"] = set.chances["supports.planet_tangential_N_per_m"] = 0;
 }
 
+/// Some scenes have a motor, a generator or a machine on a body that turns. Drawn apart, so that all else stays.
+void put_a_rotor(Draw draw, GearSet& set) {
+  if (!set.draft.has_table("dynamics") || !draw.chance(0.2)) return;
+  const auto kind = set.draft.text_of("stage.kind");
+  const auto held = set.draft.text_of("stage.held");
+  const std::string body = kind == "helical_pair" ? draw.one_of<std::string>({"pinion", "wheel"})
+                           : kind == "two_k_v"    ? "input"
+                           : held == "sun"        ? "carrier"
+                                                  : "sun";
+  const auto* own = set.draft.find(body + ".inertia_kg_m2");
+  const auto usual = set.values.find(body + ".inertia_kg_m2");
+  const double inertia = own != nullptr              ? std::get<double>(*own)
+                         : usual != set.values.end() ? std::get<double>(usual->second)
+                                                     : 0;
+  if (inertia == 0 || set.draft.find("supports." + body + "_torsional_N_per_m") != nullptr) return;
+  set.draft.set("rotor.name", std::string("machine"));
+  set.draft.set("rotor.on", body);
+  set.draft.set("rotor.inertia_kg_m2", rounded(inertia * draw.log_uniform(0.3, 100)));
+  set.draft.set("rotor.shaft_Nm_per_rad", rounded(set.scales.torsional_Nm_per_rad * draw.log_uniform(0.01, 1)));
+  if (draw.chance(0.5)) set.draft.set("rotor.shaft_damping_ratio", rounded(draw.log_uniform(0.01, 0.1)));
+  if (draw.chance(0.3)) set.draft.set("rotor.shaft_backlash_deg", rounded(draw.log_uniform(0.001, 0.1)));
+}
+
 }  // namespace
 
 RandomScene random_scene(std::uint64_t seed) {
@@ -262,6 +286,7 @@ RandomScene random_scene(std::uint64_t seed) {
   set.draft.set("model", scene.model);
   put_planets_on_rollers(draw, scene.model, set);
   Walk(draw, set, app::schema(scene.kind)).run();
+  put_a_rotor(Draw(seed + 1000000), set);
   scene.draft = std::move(set.draft);
   return scene;
 }

@@ -120,4 +120,12 @@ struct DynamicsInput {
   std::optional<double> relative_tolerance;  ///< of the time integration; absent: what the accuracy asks for
 };
 
+/// An inertia at the end of a shaft beside the gear set.
+struct RotorInput {
+  std::string name, on;                         ///< on: a body of the gear set or another rotor
+  double inertia = 0, shaft = 0;                ///< kg m^2, N m/rad
+  std::optional<double> shaft_damping_ratio{};  ///< absent: that of the supports
+  double shaft_backlash = 0;                    ///< rad, the whole of it
+};
+
 }  // namespace annulus::app

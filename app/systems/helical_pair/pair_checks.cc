@@ -10,6 +10,7 @@
 #include "app/systems/helical_pair/pair_scene.h"
 #include "app/systems/helical_pair/pair_stiffness.h"
 #include "app/systems/shared/profile_shifts.h"
+#include "app/systems/shared/rotors.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -24,6 +25,7 @@ class PairChecker : KeyChecks {
     stiffness();
     errors();
     dynamics();
+    check_rotors(scene_, problems_, dynamics::HelicalPair().shaft_ends());
     // What follows needs values that are all there.
     if (problems_.empty()) geometry();
   }

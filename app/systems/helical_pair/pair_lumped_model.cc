@@ -12,7 +12,7 @@ namespace annulus {
 ANNULUS_MEMBERS(dynamics::ErrorWave, amount, phase);
 ANNULUS_MEMBERS(dynamics::PairGear, teeth, mass, inertia, radius, bearing_transverse, bearing_axial, error);
 ANNULUS_MEMBERS(dynamics::HelicalPair, pinion, wheel, base_helix_angle, mesh, mesh_error, half_backlash, mesh_damping,
-                bearing_damping, damping_without_contact, pinion_speed, pinion_torque);
+                bearing_damping, damping_without_contact, pinion_speed, pinion_torque, rotors);
 
 }  // namespace annulus
 
@@ -27,6 +27,7 @@ dynamics::Evaluation evaluation_of(const dynamics::HelicalPair& pair, const dyna
   dynamics::Evaluation evaluation{.figures = dynamics::figures(response),
                                   .outcome = static_cast<const dynamics::SteadyOutcome&>(response)};
   evaluation.figures.add(dynamics::frequency_figures(pair));
+  dynamics::add_each_shaft(evaluation.figures, response.shafts);
   return evaluation;
 }
 
@@ -49,6 +50,7 @@ void set_errors(const FigureSet& figures, dynamics::PairResponse& r) {
                                     {"relative_motion_max_m", &relative.largest},
                                     {"relative_motion_peak_to_peak_m", &relative.peak_to_peak}})
     figure->error = figures.figure(key).error;
+  dynamics::set_errors(r.shafts, figures);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "app/model/excitation.h"
 #include "app/model/stiff_supports.h"
 #include "app/plan/gear_geometry.h"
+#include "app/systems/shared/rotors.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -86,6 +87,7 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
   pair.damping_without_contact = d.mesh_damping == MeshDamping::always;
   pair.pinion_speed = scene.stage.pinion_speed;
   pair.pinion_torque = scene.stage.pinion_torque;
+  pair.rotors = rotors_of(scene);
   return pair;
 }
 

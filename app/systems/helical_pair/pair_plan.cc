@@ -82,15 +82,14 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
   return list;
 }
 
-/// The pair before its stiffness is computed.
+}  // namespace
+
 dynamics::HelicalPair rough_pair(const Scene& scene) {
   const Scene rough =
       with_rough_stiffness(scene, {{&Scene::pinion_wheel, narrower_face(scene, scene.pinion, scene.wheel)}});
   const auto mesh = excitation_of(rough.pinion_wheel, unread_table(pinion_wheel), 0, dynamics::LoadDependence::nominal);
   return make_pair(scene, make_pair_geometry(scene), mesh, 0);
 }
-
-}  // namespace
 
 std::vector<PlannedResponse> pair_responses(const Scene& scene) {
   if (!scene.dynamics) return {};

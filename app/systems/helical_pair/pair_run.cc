@@ -176,6 +176,7 @@ std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshRes
   f.series = {};
   result->figures = carried_pair_errors(lumped, simulation, f);
   result->motions = f.motions;
+  result->shafts = f.shafts;
   const auto id = lumped.id(simulation);
   write_table(response.series, id, folder / "time_series.csv");
   write_table(response.spectrum, id, folder / "spectrum.csv");

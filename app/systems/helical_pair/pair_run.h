@@ -81,6 +81,8 @@ struct PairRunResult : RunView {
 /// All steps of a run of a scene of this kind.
 [[nodiscard]] PairRunResult run_pair(const Scene& scene, const RunOptions& options);
 
+/// The pair before its stiffness is computed (pair_plan.cc). Needs [dynamics].
+[[nodiscard]] dynamics::HelicalPair rough_pair(const Scene& scene);
 /// What a plan reports of a pair (pair_plan.cc).
 void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan);
 /// The responses of a run, as one step: the scene's own, and those that divide the transmission error by its causes.

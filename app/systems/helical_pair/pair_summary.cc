@@ -4,6 +4,7 @@
 
 #include "app/model/found_motions.h"
 #include "app/sections/report_parts.h"
+#include "app/sections/shafts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "core/json.h"
@@ -73,6 +74,7 @@ Json response_json_of(const PairResponseResult& response) {
                {"window_cycles", f.window_cycles},
                {"total_cycles", f.total_cycles},
                {"energy_balance_relative", json_number(f.energy.relative)}};
+  if (!f.shafts.empty()) json["shafts"] = to_json(f.shafts);
   auto frequencies = Json::array();
   for (const auto& mode : response.modes.modes) frequencies.push_back(mode.frequency);
   json["natural_frequencies_Hz"] = std::move(frequencies);

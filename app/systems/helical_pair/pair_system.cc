@@ -74,6 +74,17 @@ class PairSystem final : public GearSystem {
     return pair_response(scene(), run.tables.front(), options);
   }
 
+  [[nodiscard]] std::vector<TurningBody> turning_bodies() const override {
+    const auto geometry = make_pair_geometry(scene());
+    const double speed = scene().stage.pinion_speed, torque = scene().stage.pinion_torque,
+                 ratio = geometry.wheel().base_radius() / geometry.pinion().base_radius();
+    return {{"pinion", geometry.pinion().base_radius(), speed, torque},
+            {"wheel", geometry.wheel().base_radius(), -speed / ratio, torque * ratio}};
+  }
+  [[nodiscard]] std::optional<dynamics::LumpedCase> rough_lumped() const override {
+    return dynamics::lumped_case(rough_pair(scene()));
+  }
+
   [[nodiscard]] bool offers(SweepDirection /*direction*/) const override { return true; }
 
   [[nodiscard]] std::vector<Warning> scene_warnings() const override {

@@ -1,5 +1,6 @@
 #include "app/scene/gear_tables.h"
 #include "app/systems/helical_pair/pair_scene.h"
+#include "app/systems/shared/rotors.h"
 
 namespace annulus::app {
 
@@ -169,6 +170,7 @@ std::vector<Table> pair_tables() {
           pair_gear_table("pinion", "The driving gear of a pair.", &Scene::pinion),
           pair_gear_table("wheel", "The driven gear of a pair.", &Scene::wheel),
           pair_mesh_table(),
+          rotor_table(),
           pair_errors_table(),
           manufacturing_error_table(),
           transmission_error_table()};

@@ -35,6 +35,9 @@ template <class Response, class Errors, class Visit>
 void for_each_figure(Response& response, Errors& errors, Visit visit) {
   for_each_figure("sun_planet", response.sun_planet, errors.sun_planet, visit);
   for_each_figure("ring_planet", response.ring_planet, errors.ring_planet, visit);
+  errors.shafts.resize(response.shafts.size());
+  for (std::size_t i = 0; i < response.shafts.size(); ++i)
+    visit(response.shafts[i].name + "_shaft_torque", response.shafts[i].largest_torque, errors.shafts[i]);
 }
 
 /// The figures that carry errors, every planet's by itself.

@@ -16,6 +16,7 @@ struct MeshKindErrors {
 
 struct ResponseErrors {
   MeshKindErrors sun_planet, ring_planet;
+  std::vector<ErrorParts> shafts;  ///< of their largest torques, N m
 };
 
 /// The stage on these mesh stiffnesses, all else being the same.

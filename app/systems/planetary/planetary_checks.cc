@@ -22,6 +22,7 @@
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/profile_shifts.h"
+#include "app/systems/shared/rotors.h"
 #include "core/errors.h"
 #include "core/units.h"
 
@@ -56,9 +57,17 @@ class PlanetaryChecker : KeyChecks {
     check_pitch_deviations(scene_, problems_);
     check_space(scene_, problems_);
     check_power_flow(scene_, problems_);
+    rotors();
   }
 
  private:
+  void rotors() {
+    dynamics::PlanetaryStage stage;
+    for (const auto member : geometry::stage_members)
+      stage.body(member).torsional_support = torsional_support(scene_, member);
+    check_rotors(scene_, problems_, stage.shaft_ends());
+  }
+
   void planet_angles() {
     const std::string key = "stage.planet_angles_deg";
     if (!given(key) || !usable(key) || !usable("stage.planets")) return;

@@ -4,6 +4,7 @@
 
 #include "app/plan/gear_geometry.h"
 #include "app/plan/plan.h"
+#include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::app {
 
@@ -13,6 +14,8 @@ void describe_planetary(const Scene& scene, const GearGeometry& geometry, Plan& 
 /// How the motion is found in time, and why so (motion_plan.cc). The scene has [dynamics].
 [[nodiscard]] std::vector<Decision> motion_decisions(const Scene& scene, const std::vector<MeshModel>& meshes);
 
+/// The stage of one ring before its stiffnesses are computed (planetary_responses.cc). The scene has [dynamics].
+[[nodiscard]] dynamics::PlanetaryStage rough_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring);
 /// The responses of a planetary scene, one per ring (planetary_responses.cc); empty without [dynamics].
 [[nodiscard]] std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearGeometry& geometry,
                                                                const std::vector<MeshModel>& meshes);

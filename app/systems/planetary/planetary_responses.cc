@@ -76,16 +76,20 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
 
 }  // namespace
 
-std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearGeometry& geometry,
-                                                 const std::vector<MeshModel>& meshes) {
-  if (!scene.dynamics) return {};
+dynamics::PlanetaryStage rough_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
   const Scene rough =
       with_rough_stiffness(scene, {{&Scene::sun_planet, narrower_face(scene, scene.sun, scene.planet)},
                                    {&Scene::ring_planet, narrower_face(scene, scene.planet, scene.rings.front())}});
   const auto none = unread_table(sun_planet);
+  return make_stage(rough, geometry, ring, none, none);
+}
+
+std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearGeometry& geometry,
+                                                 const std::vector<MeshModel>& meshes) {
+  if (!scene.dynamics) return {};
   std::vector<PlannedResponse> responses;
   for (std::size_t i = 0; i < scene.rings.size(); ++i)
-    responses.push_back(planned_response(scene, make_stage(rough, geometry, i, none, none),
+    responses.push_back(planned_response(scene, rough_stage(scene, geometry, i),
                                          meshes.front().computed() + meshes.at(i + 1).computed(), meshes.at(i + 1),
                                          scene.rings[i].name));
   return responses;

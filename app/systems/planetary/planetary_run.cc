@@ -54,6 +54,13 @@ FigureSet response_figures(const StageResponse& response) {
   };
   add_parts("sun_planet", f.sun_planet, response.errors.sun_planet);
   add_parts("ring_planet", f.ring_planet, response.errors.ring_planet);
+  if (!f.shafts.empty()) {
+    const auto worst_one = dynamics::worst_shaft(f.shafts);
+    const auto& shaft = f.shafts[worst_one];
+    if (shaft.nominal_torque > 0)
+      set.set(dynamics::shaft_key, shaft.torque_factor(),
+              (1 / shaft.nominal_torque) * response.errors.shafts[worst_one]);
+  }
   set.add(frequency_figures(response.modes));
   return set;
 }
@@ -120,6 +127,7 @@ std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeomet
   auto result = std::make_unique<RingResponse>();
   result->figures = response_figures(response);
   result->motions = response.figures.motions;
+  result->shafts = response.figures.shafts;
   result->reused = reused;
   result->stage = std::move(response);
   result->tolerances = tolerance_sharing(scene, geometry, ring, stage, sun_mesh, ring_mesh, options);

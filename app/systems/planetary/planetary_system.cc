@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "app/model/cost_actual.h"
@@ -16,6 +17,8 @@
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/space_dynamics.h"
+#include "app/systems/planetary/stage_response.h"
+#include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/stage_warnings.h"
 #include "app/systems/planetary/statics.h"
 #include "app/systems/planetary/strain_gauges.h"
@@ -111,6 +114,23 @@ class PlanetarySystem final : public GearSystem {
   [[nodiscard]] std::unique_ptr<RunResponse> respond(const SystemRun& run, std::size_t ring,
                                                      const RunOptions& options) const override {
     return ring_response(scene(), geometry(), ring, run.tables.front(), run.tables.at(ring + 1), options);
+  }
+
+  [[nodiscard]] std::vector<TurningBody> turning_bodies() const override {
+    using geometry::StageMember;
+    const auto stage = stage_kinematics(scene(), geometry(), 0);
+    const auto& ring = geometry().rings.front().set;
+    std::vector<TurningBody> bodies;
+    for (const auto& [member, speed, torque] :
+         {std::tuple{StageMember::sun, stage.sun_speed(), stage.sun_torque},
+          {StageMember::carrier, stage.carrier_speed, -stage.carrier_torque()},
+          {StageMember::ring, stage.ring_speed, stage.sun_torque * ring.ring().teeth() / ring.sun().teeth()}})
+      if (torsional_support(scene(), member) != rigid)
+        bodies.push_back({to_string(member), stage.body(member).radius, speed, torque});
+    return bodies;
+  }
+  [[nodiscard]] std::optional<dynamics::LumpedCase> rough_lumped() const override {
+    return dynamics::lumped_case(rough_stage(scene(), geometry(), 0));
   }
 
   [[nodiscard]] bool offers(SweepDirection /*direction*/) const override { return true; }

@@ -27,7 +27,7 @@ ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bea
                 ring_teeth, sun_mesh, ring_mesh, sun_phase_lag, ring_phase_lag, ring_tooth_offset, ring_coupling,
                 planet_coupling, sun_half_backlash, ring_half_backlash, mesh_damping_ratio, support_damping_ratio,
                 damping_without_contact, carrier_speed, ring_speed, bearing_speed, sun_torque, held, rotating_frame,
-                space);
+                space, rotors);
 
 ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
 ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_factor, mean_force, contact_loss,
@@ -39,7 +39,7 @@ struct Members<dynamics::DynamicResponse> {
   template <class Response>
   static auto of(Response& r) {
     return std::tie(static_cast<dynamics::SteadyOutcome&>(r), r.mesh_frequency, r.mean_mesh_force, r.sun_planet,
-                    r.ring_planet, r.cycle_force, r.force_balance_relative);
+                    r.ring_planet, r.cycle_force, r.force_balance_relative, r.shafts);
   }
 };
 
@@ -51,7 +51,7 @@ ANNULUS_MEMBERS(dynamics::StageTolerances, planet_pin_position, sun_eccentricity
                 ring_eccentricity, within);
 
 ANNULUS_MEMBERS(app::MeshKindErrors, instantaneous, averaged, quasi_static, peak_factor, dynamic_factor);
-ANNULUS_MEMBERS(app::ResponseErrors, sun_planet, ring_planet);
+ANNULUS_MEMBERS(app::ResponseErrors, sun_planet, ring_planet, shafts);
 ANNULUS_MEMBERS(app::StageModes::Mode, frequency, frequency_error, error_parts, kind, damped_frequency, damping_ratio,
                 strain, kinetic);
 ANNULUS_MEMBERS(app::StageModes, groups, bodies, list, shapes, campbell, critical_speeds);

@@ -11,6 +11,7 @@
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_members.h"
 #include "app/systems/planetary/stage_supports.h"
+#include "app/systems/shared/rotors.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -101,6 +102,7 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
+  stage.rotors = rotors_of(scene);
   if (moves_in_space(scene)) put_in_space(stage, scene, geometry, ring, sun_mesh, ring_mesh);
   return stage;
 }

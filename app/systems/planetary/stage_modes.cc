@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/shared/mesh_names.h"
@@ -87,7 +89,8 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnes
   const auto frequencies = dynamics::frequency_errors(modes, energy, errors);
   const auto turning = dynamics::modes_at_speed(stage);
   result.groups = energy.groups;
-  result.bodies = {"sun", "ring", "carrier", "planets"};
+  result.bodies = energy.bodies;
+  std::replace(result.bodies.begin(), result.bodies.end(), std::string("planet"), std::string("planets"));
   for (std::size_t i = 0; i < modes.modes.size(); ++i) {
     const auto& [frequency, shape] = modes.modes[i];
     result.list.push_back({frequency, frequencies[i].figure.error, frequencies[i].parts,

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "app/sections/report_parts.h"
+#include "app/sections/shafts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/roller_loads.h"
@@ -156,6 +157,7 @@ Json ring_json(const RunResult& result, std::size_t number) {
                       {"period_cycles", m.section_period ? Json(*m.section_period) : Json(nullptr)},
                       {"clusters", m.section_clusters}};
   json["motions"] = to_json(f.motions);
+  if (!f.shafts.empty()) json["shafts"] = to_json(f.shafts);
   json["dynamics"] = {{"steady", f.steady},
                       {"steady_difference", json_number(f.steady_difference)},
                       {"window_cycles", f.window_cycles},

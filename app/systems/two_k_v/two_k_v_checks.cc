@@ -6,6 +6,7 @@
 #include "app/plan/mesh_model.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/model_limits.h"
+#include "app/systems/shared/rotors.h"
 #include "app/systems/two_k_v/two_k_v_model.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"
 #include "core/units.h"
@@ -30,9 +31,17 @@ class TwoKVChecker : KeyChecks {
     arc_teeth();
     plane_models();
     dynamics();
+    rotors();
   }
 
  private:
+  void rotors() {
+    dynamics::TwoKVStage stage;
+    stage.input_support = scene_.input.support;
+    stage.output_support = scene_.output.support;
+    check_rotors(scene_, problems_, stage.shaft_ends());
+  }
+
   void gears() {
     if (usable("stage.planets") && scene_.stage.planets < 2)
       problem(

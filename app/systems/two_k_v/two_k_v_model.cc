@@ -9,6 +9,7 @@
 #include "app/model/stiff_supports.h"
 #include "app/results/cached_value.h"
 #include "app/systems/shared/mesh_names.h"
+#include "app/systems/shared/rotors.h"
 #include "app/systems/two_k_v/two_k_v_members.h"
 #include "core/errors.h"
 #include "core/units.h"
@@ -178,6 +179,7 @@ dynamics::TwoKVStage make_two_k_v(const Scene& scene, const TwoKVTables& tables,
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
+  stage.rotors = rotors_of(scene);
   return stage;
 }
 

@@ -104,6 +104,7 @@ TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVRe
   m.sun_planet = r.sun_planet;
   m.arc_pins = r.arc_pins;
   m.arc_bearings = r.arc_bearings;
+  m.shafts = r.shafts;
 
   const auto& series = r.series;
   m.output_error.columns = {"crank_turn", "time_s", "error_rad"};
@@ -163,6 +164,7 @@ dynamics::Evaluation evaluation_of(const TwoKVModels& models, const dynamics::Tw
   };
   add("sun_planet", response.sun_planet);
   add("arc_pins", response.arc_pins);
+  dynamics::add_each_shaft(evaluation.figures, response.shafts);
   return evaluation;
 }
 
@@ -187,6 +189,7 @@ TwoKVMotion simulate_two_k_v(const Scene& scene, const TwoKVTables& tables,
     for (std::size_t n = 0; n < list->size(); ++n)
       for (const auto& [name, factor] : mesh_factors)
         ((*list)[n].*factor).error = motion.results.figure(factor_key(mesh, n, name)).error;
+  dynamics::set_errors(motion.shafts, motion.results);
   for_each_motion_table(motion, [](const char*, Csv& table) { table.round(); });
   motion.time_series = motion_series(response.series).text();
   return motion;

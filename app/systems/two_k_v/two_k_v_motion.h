@@ -27,6 +27,7 @@ struct TwoKVMotion {
   double error_mean = 0, static_error_mean = 0, static_error_peak_to_peak = 0;
   std::vector<dynamics::BranchResult> sun_planet, arc_pins;
   std::vector<dynamics::ArcBearingResult> arc_bearings;
+  std::vector<dynamics::ShaftResult> shafts;
 
   FigureSet results;  ///< by key, with the parts of their errors; of the lumped model and of every mesh
 

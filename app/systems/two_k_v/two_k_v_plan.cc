@@ -11,6 +11,12 @@
 
 namespace annulus::app {
 
+dynamics::TwoKVStage rough_two_k_v(const Scene& scene) {
+  return make_two_k_v(with_rough_stiffness(scene, {{&Scene::sun_planet, narrower_face(scene, scene.sun, scene.planet)},
+                                                   {&Scene::arc_pins, scene.stage.face_width}}),
+                      {unread_table(sun_planet), unread_table(arc_pins)}, dynamics::LoadDependence::nominal);
+}
+
 namespace {
 
 std::vector<Quantity> two_k_v_quantities(const Scene& scene, const geometry::GearPair& pair) {
@@ -57,13 +63,6 @@ std::vector<DofPlan> two_k_v_dofs(const Scene& scene) {
           {gears + " u", true, "each turns with the output"},
           {gears + " x", true, "along the circle of the eccentric"},
           held("output u", scene.output.support)};
-}
-
-/// The stage with rough stiffness, before anything is solved.
-dynamics::TwoKVStage rough_two_k_v(const Scene& scene) {
-  return make_two_k_v(with_rough_stiffness(scene, {{&Scene::sun_planet, narrower_face(scene, scene.sun, scene.planet)},
-                                                   {&Scene::arc_pins, scene.stage.face_width}}),
-                      {unread_table(sun_planet), unread_table(arc_pins)}, dynamics::LoadDependence::nominal);
 }
 
 std::vector<std::string> stiff_parts(const Scene& scene) {

@@ -67,6 +67,7 @@ std::unique_ptr<TwoKVResponse> two_k_v_response(const Scene& scene, const RunVar
   motion.reused = reused;
   result->figures = motion.results;
   result->motions = motion.motions;
+  result->shafts = motion.shafts;
   result->reused = reused;
   result->motion = std::move(motion);
   return result;

@@ -62,5 +62,7 @@ void describe_two_k_v(const Scene& scene, Plan& plan);
 [[nodiscard]] std::vector<MeshModel> two_k_v_meshes(const Scene& scene);
 /// One for the scene, one for a comparison if it asks for it.
 [[nodiscard]] std::vector<PlannedResponse> two_k_v_responses(const Scene& scene);
+/// The stage with rough stiffness, before anything is solved. Needs [dynamics].
+[[nodiscard]] dynamics::TwoKVStage rough_two_k_v(const Scene& scene);
 
 }  // namespace annulus::app

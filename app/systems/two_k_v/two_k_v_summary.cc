@@ -1,5 +1,6 @@
 #include "app/model/found_motions.h"
 #include "app/sections/report_parts.h"
+#include "app/sections/shafts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "core/json.h"
@@ -70,6 +71,7 @@ Json motion_summary(const TwoKVMotion& m) {
            {"peak_factor", {{"value", mesh.peak_factor.value}, {"error", json_number(mesh.peak_factor.error)}}},
            {"smallest_factor", mesh.smallest_factor},
            {"contact_loss", mesh.contact_loss.value}});
+  if (!m.shafts.empty()) json["shafts"] = to_json(m.shafts);
   json["largest_arc_bearing_force_N"] = m.largest_bearing_force();
   json["reused"] = m.reused;
   return json;

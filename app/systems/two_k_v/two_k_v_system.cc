@@ -74,7 +74,21 @@ class TwoKVSystem final : public GearSystem {
                                  figures.add(dynamics::figures(models.moving, response));
                                  return {{.figures = {dynamics::two_k_v_figures(), figures}}, response.end};
                                },
-                               {}});
+                               [models] { return dynamics::lumped_case(models.moving); }});
+  }
+
+  [[nodiscard]] std::vector<TurningBody> turning_bodies() const override {
+    const auto stage = two_k_v_kinematics(scene());
+    std::vector<TurningBody> bodies;
+    if (scene().input.support != rigid)
+      bodies.push_back(
+          {"input", stage.sun_base_radius(), stage.output_speed * stage.ratio(), stage.output_torque / stage.ratio()});
+    if (scene().output.support != rigid)
+      bodies.push_back({"output", stage.crank_circle_radius(), stage.output_speed, -stage.output_torque});
+    return bodies;
+  }
+  [[nodiscard]] std::optional<dynamics::LumpedCase> rough_lumped() const override {
+    return dynamics::lumped_case(rough_two_k_v(scene()));
   }
 
   [[nodiscard]] std::vector<PlannedResponse> responses() const override { return two_k_v_responses(scene()); }

@@ -1,4 +1,5 @@
 #include "app/scene/gear_tables.h"
+#include "app/systems/shared/rotors.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"
 
 namespace annulus::app {
@@ -146,6 +147,7 @@ std::vector<Table> two_k_v_tables() {
           arc_gear_table(),
           input_shaft_table(),
           output_table(),
+          rotor_table(),
           comparable_mesh_table(
               {"mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.", &Scene::sun_planet}),
           comparable_mesh_table(

@@ -59,6 +59,10 @@ double HelicalPair::wheel_speed() const { return pinion_speed * pinion.teeth / w
 
 double HelicalPair::wheel_torque() const { return pinion_torque * wheel.radius / pinion.radius; }
 
+std::vector<ShaftEnd> HelicalPair::shaft_ends() const {
+  return {{"pinion", pinion.radius, ""}, {"wheel", wheel.radius, ""}};
+}
+
 double HelicalPair::mesh_frequency() const { return pinion.teeth * pinion_speed / (2 * std::numbers::pi); }
 
 double HelicalPair::static_force() const { return pinion_torque / (pinion.radius * std::cos(base_helix_angle)); }
@@ -97,6 +101,7 @@ void HelicalPair::check() const {
   check_not_negative(mesh_damping_ratio, "mesh damping ratio");
   check_not_negative(bearing_damping_ratio, "bearing damping ratio");
   check_not_negative(pinion_speed, "pinion speed");
+  check_rotors(rotors, shaft_ends());
   if (!std::isfinite(pinion_torque))
     throw InputError(fmt::format("pinion torque {} N m must be finite", pinion_torque));
 }
@@ -145,7 +150,7 @@ LumpedSystem assemble(const HelicalPair& pair) {
   const double force = pair.pinion_torque / pair.pinion.radius;
   builder.add_load(pinion.u, force);
   builder.add_load(wheel.u, force);
-  return builder.build();
+  return with_rotors(builder.build(), pair.rotors, pair.shaft_ends());
 }
 
 Modes modes(const HelicalPair& pair) { return modes(assemble(pair)); }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "dynamics/modes/modes.h"
+#include "dynamics/system/drive_line.h"
 #include "dynamics/system/lumped_system.h"
 #include "dynamics/system/mesh_excitation.h"
 #include "dynamics/system/support.h"
@@ -58,7 +60,9 @@ struct HelicalPair {
   double pinion_speed = 0;  ///< rad/s, >= 0
   /// N m; the torque of the wheel is this times the ratio. Negative: the back flanks, or a mesh that pulls.
   double pinion_torque = 0;
+  std::vector<Rotor> rotors;  ///< on pinion and wheel
 
+  [[nodiscard]] std::vector<ShaftEnd> shaft_ends() const;
   [[nodiscard]] double wheel_speed() const;     ///< rad/s
   [[nodiscard]] double wheel_torque() const;    ///< N m, T r_2/r_1, with the sign of the pinion's
   [[nodiscard]] double mesh_frequency() const;  ///< Hz: z_1 Omega_1 / 2 pi
@@ -90,7 +94,7 @@ struct Iso6336Mesh {
 [[nodiscard]] double iso_6336_mesh_stiffness(const Iso6336Mesh& mesh);
 
 /// The pair as elements: DOFs pinion_y, pinion_z, pinion_u, wheel_y, wheel_z, wheel_u (rigid ones left out) and one
-/// mesh "mesh". Throws what `check` throws.
+/// mesh "mesh"; then those of the rotors (with_rotors). Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const HelicalPair& pair);
 
 /// Modes with the mean tangent stiffness of the mesh; the free rotation has 0 Hz.

@@ -71,6 +71,7 @@ std::vector<FigureSpec> pair_specs() {
   list.push_back(length("relative_motion_peak_to_peak_m",
                         "Relative motion with the bending of shafts and bearings, peak to peak",
                         "peak-to-peak value over time of y_1 + u_1 - y_2 + u_2"));
+  list.push_back(shaft_figure());
   list.push_back(steady_figure());
   list.push_back(motions_figure());
   const auto frequencies = frequency_specs(
@@ -114,6 +115,7 @@ FigureSet figures(const PairResponse& r) {
   set.set("relative_motion_mean_m", r.dynamic.relative.mean);
   set.set("relative_motion_max_m", r.dynamic.relative.largest);
   set.set("relative_motion_peak_to_peak_m", r.dynamic.relative.peak_to_peak);
+  add_shafts(set, r.shafts);
   set.set("steady", r.steady ? 1 : 0);
   set.set(motions_key, number_of(r.motions));
   return set;

@@ -215,6 +215,7 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
                       evidence.motion(rows.relative, &WindowPeaks::relative)};
   response.quasi_static = quasi_static_motions(pair, system, options);
 
+  response.shafts = shaft_results(system, pair.rotors, pair.shaft_ends(), found);
   static_cast<SteadyOutcome&>(response) = static_cast<const SteadyOutcome&>(found);
   if (options.keep_series) response.series = series_of(system, std::move(found.best));
   return response;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/figure.h"
+#include "dynamics/figures/shaft_results.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "dynamics/systems/helical_pair/helical_pair.h"
 
@@ -46,7 +48,8 @@ struct PairResponse : SteadyOutcome {
   PairAccelerations acceleration;
   PairMotions dynamic;
   PairMotions quasi_static;  ///< without inertia, damping and speed; no errors are estimated
-  TimeSeries series;         ///< with `keep_series`
+  std::vector<ShaftResult> shafts;
+  TimeSeries series;  ///< with `keep_series`
 };
 
 /// Steady state of the pair and its results. The error of a result is the sum of the sampling error, the difference to

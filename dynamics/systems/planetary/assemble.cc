@@ -344,7 +344,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   if (stage.held != StageMember::sun) builder.add_load(sun.u, sun_force);
   if (stage.held != StageMember::carrier) builder.add_load(carrier.u, -sun_force * (std::cos(as) + std::cos(ar)));
   if (stage.held != StageMember::ring) builder.add_load(ring.u, sun_force);
-  return builder.build();
+  return with_rotors(builder.build(), stage.rotors, stage.shaft_ends());
 }
 
 }  // namespace annulus::dynamics

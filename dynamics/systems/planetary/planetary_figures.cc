@@ -68,6 +68,7 @@ std::vector<FigureSpec> planetary_specs() {
   std::vector<FigureSpec> list;
   declare_meshes(list, sun_meshes, "sun meshes", MeshKind::sun);
   declare_meshes(list, ring_meshes, "ring meshes", MeshKind::ring);
+  list.push_back(shaft_figure());
   list.push_back(steady_figure());
   list.push_back(motions_figure());
   declare_motion(list, "sun", "Motion of the sun", "the distance of the sun's centre from its mean position");
@@ -104,6 +105,7 @@ FigureSet figures(const DynamicResponse& response) {
   FigureSet set;
   add(set, sun_meshes, response.sun_planet);
   add(set, ring_meshes, response.ring_planet);
+  add_shafts(set, response.shafts);
   set.set("steady", response.steady ? 1 : 0);
   set.set(motions_key, number_of(response.motions));
   return set;

@@ -205,6 +205,14 @@ int PlanetaryStage::error_period() const {
   return period;
 }
 
+std::vector<ShaftEnd> PlanetaryStage::shaft_ends() const {
+  std::vector<ShaftEnd> ends{{"planet", planet.radius, "planets move around the axis"}};
+  for (const auto member : {geometry::StageMember::sun, geometry::StageMember::ring, geometry::StageMember::carrier})
+    ends.push_back(
+        {to_string(member), body(member).radius, body(member).torsional_support == rigid ? "it is held" : ""});
+  return ends;
+}
+
 void PlanetaryStage::check() const {
   check_central(sun, "sun");
   check_central(ring, "ring");
@@ -251,6 +259,7 @@ void PlanetaryStage::check() const {
   dynamics::check(ring_mesh, "ring-planet mesh");
   if (ring_coupling) check_coupling(*ring_coupling, *this);
   check_planet_coupling(*this);
+  check_rotors(rotors, shaft_ends());
   if (space) space->check(planets());
   if (space && ring_coupling && !ring_coupling->modes.empty())
     throw InputError(fmt::format("a ring that moves along the axis and tilts has none of its {} elastic modes",

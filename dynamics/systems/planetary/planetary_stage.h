@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/ring_coupling.h"
+#include "dynamics/system/drive_line.h"
 #include "dynamics/system/mesh_excitation.h"
 #include "dynamics/system/support.h"
 #include "dynamics/systems/planetary/stage_space.h"
@@ -16,8 +17,6 @@ class PlanetarySet;
 }
 
 namespace annulus::dynamics {
-
-class LumpedSystem;
 
 /// A radial deviation and its direction: the vector (cos phase, sin phase) x amount.
 struct Deviation {
@@ -136,8 +135,11 @@ struct PlanetaryStage {
   /// effect, and the ring has no modes. A mesh is spread over its face (FaceElement).
   std::optional<StageSpace> space;
 
+  std::vector<Rotor> rotors;  ///< on sun, ring and carrier as far as they turn
+
   [[nodiscard]] const CentralBody& body(geometry::StageMember member) const { return this->*body_of(member); }
   [[nodiscard]] CentralBody& body(geometry::StageMember member) { return this->*body_of(member); }
+  [[nodiscard]] std::vector<ShaftEnd> shaft_ends() const;
   [[nodiscard]] PlanetBearing planet_bearing(int n) const;
   /// Force of a planet on its pin under the mean mesh force, N: radial outwards, with the centrifugal force, and in the
   /// sense of rotation.
@@ -190,7 +192,8 @@ void set_kinematics(PlanetaryStage& stage, const geometry::PlanetarySet& set);
 /// named sun_x, sun_y, sun_u, ..., planet1_x, ..., then ring_mode1, ... Meshes: sun_planet1 ... sun_planetN,
 /// ring_planet1 ...; then planet1_bearing_along, planet1_bearing_across (the mean pin force) ... of bearings with play.
 /// Their planets are loaded by their centrifugal forces. In space: the DOFs of add_bodies_in_space(), and behind all
-/// meshes sun_planet1_tilt ... ring_planet1_tilt ..., the tilts of their faces. Throws what `check` throws.
+/// meshes sun_planet1_tilt ... ring_planet1_tilt ..., the tilts of their faces. Last those of the rotors (with_rotors).
+/// Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const PlanetaryStage& stage);
 
 }  // namespace annulus::dynamics

@@ -63,15 +63,16 @@ void set_figures(const PlanetaryStage& stage, const SimulationOptions& options, 
 double force_balance(const PlanetaryStage& stage, const LumpedSystem& system, const SteadyResponse& found) {
   // Of the ring where the sun is held: its load reaches the ring meshes in the same sense.
   const bool sun = stage.held != geometry::StageMember::sun;
-  const int u = system.find(sun ? "sun_u" : "ring_u");
+  const Eigen::VectorXd turning = turning_as_one(system, stage.rotors, sun ? "sun" : "ring");
   const double duration = found.window_cycles / stage.mesh_frequency();
   const Eigen::MatrixXd all = averaging_force(found.best);
   const double forces = all.middleRows(sun ? 0 : stage.planets(), stage.planets()).colwise().sum().mean();
-  const double support = system.stiffness()(u, u) * found.best.displacement.row(u).mean() +
-                         system.damping()(u, u) * (found.end.q[u] - found.begin.q[u]) / duration;
-  const double inertia = system.mass()(u, u) * (found.end.v[u] - found.begin.v[u]) / duration;
+  const double support = turning.dot(system.stiffness() * found.best.displacement.rowwise().mean()) +
+                         turning.dot(system.damping() * (found.end.q - found.begin.q)) / duration;
+  const double inertia = turning.dot(system.mass() * (found.end.v - found.begin.v)) / duration;
   double load = 0;
-  for (const double t : found.best.time) load += system.load_at(t)[u] / static_cast<double>(found.best.time.size());
+  for (const double t : found.best.time)
+    load += turning.dot(system.load_at(t)) / static_cast<double>(found.best.time.size());
   return std::abs((forces + support + inertia) / load - 1);
 }
 
@@ -97,6 +98,7 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
       averaging_force(found.best).topRows(2 * static_cast<Eigen::Index>(stage.planets())), found.window_cycles);
   response.force_balance_relative = force_balance(stage, system, found);
   set_figures(stage, options, found, response);
+  response.shafts = shaft_results(system, stage.rotors, stage.shaft_ends(), found);
   if (options.keep_series) response.series = series_of(system, std::move(found.best));
   return response;
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dynamics/figures/mesh_results.h"
+#include "dynamics/figures/shaft_results.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::dynamics {
@@ -20,6 +21,7 @@ struct DynamicResponse : SteadyOutcome {
   /// Momentum balance of the sun's rotation over the window, relative to T_s: mean of sum F_sn r_bs (and of its
   /// torsional support, and the change of angular momentum) against T_s.
   double force_balance_relative = 0;
+  std::vector<ShaftResult> shafts;
   TimeSeries series;
 };
 

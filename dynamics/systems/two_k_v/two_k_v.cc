@@ -74,14 +74,36 @@ void TwoKVStage::check() const {
   if (!std::isfinite(crank_angle)) refuse(fmt::format("crank angle {} rad must be finite", crank_angle));
   not_negative(output_speed, "output speed", "rad/s");
   not_negative(output_torque, "output torque", "N m");
+  check_rotors(rotors, shaft_ends());
 }
+
+std::vector<ShaftEnd> TwoKVStage::shaft_ends() const {
+  const auto refusal = [](double support) { return support == rigid ? "it is held" : ""; };
+  std::vector<ShaftEnd> ends{{"input", sun_base_radius(), refusal(input_support)},
+                             {"output", crank_circle_radius(), refusal(output_support)}};
+  for (const char* inner : {"sun", "planet", "crank", "arc"}) ends.push_back({inner, 0, "it is inside the reducer"});
+  return ends;
+}
+
+namespace {
+
+/// The end to which a rotor belongs that has this DOF; nothing for other DOFs.
+std::optional<ShaftEnd> end_of_rotor(const TwoKVStage& stage, const std::string& dof) {
+  for (const auto& rotor : stage.rotors)
+    if (dof == rotor.name + "_u") return end_of(rotor, stage.rotors, stage.shaft_ends());
+  return std::nullopt;
+}
+
+}  // namespace
 
 Eigen::VectorXd dof_radii(const TwoKVStage& stage, const LumpedSystem& system) {
   Eigen::VectorXd radii(system.dofs());
   for (int i = 0; i < system.dofs(); ++i) {
     const auto& name = system.names()[i];
     const auto starts = [&](const char* body) { return name.rfind(body, 0) == 0; };
-    if (name.ends_with("_x"))
+    if (const auto end = end_of_rotor(stage, name))
+      radii[i] = end->radius;
+    else if (name.ends_with("_x"))
       radii[i] = 1;
     else if (starts("planet"))
       radii[i] = stage.planet_base_radius();
@@ -100,7 +122,9 @@ Eigen::VectorXd rigid_motion(const TwoKVStage& stage, const LumpedSystem& system
   for (int i = 0; i < system.dofs(); ++i) {
     const auto& name = system.names()[i];
     const auto starts = [&](const char* body) { return name.rfind(body, 0) == 0; };
-    if (name.ends_with("_x"))
+    if (const auto end = end_of_rotor(stage, name))
+      motion[i] *= end->name == "input" ? stage.ratio() : 1;
+    else if (name.ends_with("_x"))
       motion[i] = starts("planet") ? stage.crank_circle_radius() : -stage.eccentricity * stage.arc_teeth;
     else if (starts("planet") || starts("crank"))
       motion[i] *= -stage.arc_teeth;

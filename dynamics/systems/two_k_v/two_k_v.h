@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
+#include "dynamics/system/drive_line.h"
 #include "dynamics/system/lumped_system.h"
 #include "dynamics/system/mesh_excitation.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
@@ -64,6 +66,9 @@ struct TwoKVStage {
   double output_speed = 0;   ///< rad/s, >= 0
   double output_torque = 0;  ///< T, N m, >= 0, load on the output; the input drives with T/ratio
 
+  std::vector<Rotor> rotors;  ///< on input and output
+
+  [[nodiscard]] std::vector<ShaftEnd> shaft_ends() const;
   [[nodiscard]] double ratio() const;                ///< 1 + (z_p/z_s) z_b
   [[nodiscard]] double sun_base_radius() const;      ///< m
   [[nodiscard]] double planet_base_radius() const;   ///< m
@@ -88,6 +93,7 @@ struct TwoKVStage {
 ///   crank1_arc1_tangential (along t_1), crank1_arc1_radial ...: bearings as linear meshes, whose vectors turn with
 ///   v_j.
 /// - Springs: input_shaft, planet1_shaft, crank1_bearing, ..., input_support_u, output_support_u.
+/// - Behind them those of the rotors (with_rotors).
 /// Mesh phases follow the crank: sun mesh i at -z_p Theta/2 pi - z_s phi_i/2 pi cycles, pins of arc gear j at
 /// -z_a Theta/2 pi - z_b j/m. Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const TwoKVStage& stage);

@@ -167,7 +167,7 @@ class TwoKVAssembler {
 
 LumpedSystem assemble(const TwoKVStage& stage) {
   stage.check();
-  return TwoKVAssembler(stage).build();
+  return with_rotors(TwoKVAssembler(stage).build(), stage.rotors, stage.shaft_ends());
 }
 
 }  // namespace annulus::dynamics

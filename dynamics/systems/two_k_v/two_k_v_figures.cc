@@ -93,6 +93,9 @@ void declare_motion(std::vector<FigureSpec>& list) {
     list[i].effort = FigureEffort::motion;
     list[i].spread = false;  // samples do not simulate the motion
   }
+  list.push_back(shaft_figure());
+  list.back().effort = FigureEffort::motion;
+  list.back().spread = false;
   list.push_back({.key = "arc_bearing_force_N",
                   .title = "Largest force of an eccentric's bearing",
                   .unit = "N",
@@ -156,6 +159,7 @@ FigureSet figures(const TwoKVStage& stage, const TwoKVResponse& r) {
       set.set(prefix + key, still ? Figure{1, 0} : largest(*kinds[k], factor));
     set.set(prefix + "contact_loss", largest(*kinds[k], &BranchResult::contact_loss));
   }
+  add_shafts(set, r.shafts);
   double bearing = 0;
   for (const auto& b : r.arc_bearings) bearing = std::max(bearing, b.largest);
   set.set("arc_bearing_force_N", bearing);

@@ -59,6 +59,12 @@ TwoKVStage at_angle(const TwoKVStage& stage, double angle) {
   return turned;
 }
 
+/// What is said of the reducer by itself.
+TwoKVStage without_rotors(TwoKVStage stage) {
+  stage.rotors.clear();
+  return stage;
+}
+
 double hertz(double stiffness, double inertia) { return std::sqrt(stiffness / inertia) / (2 * std::numbers::pi); }
 
 }  // namespace
@@ -109,7 +115,7 @@ TorsionalStiffness torsional_stiffness(const TwoKVStage& stage, int count, Froze
   result.from_output.resize(count);
   result.from_input.resize(count);
   for (int i = 0; i < count; ++i) {
-    TwoKVStage turned = at_angle(stage, result.angle[i]);
+    TwoKVStage turned = without_rotors(at_angle(stage, result.angle[i]));
     turned.input_support = rigid;
     turned.output_support = 0;
     result.from_output[i] = stiffness_seen_from("output_u", turned, frozen);
@@ -129,7 +135,7 @@ OneDof one_dof(const TwoKVStage& stage) {
   OneDof one;
   one.stiffness = torsional_stiffness(stage, 1, FrozenStiffness::mean).from_output[0];
   one.input_inertia = stage.input_inertia * stage.ratio() * stage.ratio();
-  auto free = stage;
+  auto free = without_rotors(stage);
   free.input_support = free.output_support = 0;
   const auto system = assemble(free);
   Eigen::VectorXd motion = rigid_motion(free, system);

@@ -72,11 +72,11 @@ std::optional<double> torque_balance(const TwoKVStage& stage, const LumpedSystem
       averaging_force(steady.best).topRows(stage.cranks).colwise().sum().mean() * stage.sun_base_radius();
   double momentum = 0;
   const double span = steady.end.time - steady.begin.time;
-  if (span > 0)
-    for (const char* name : {"input_u", "sun_u"}) {
-      const int i = system.find(name);
-      momentum += system.mass()(i, i) * (steady.end.v[i] - steady.begin.v[i]) * stage.sun_base_radius() / span;
-    }
+  if (span > 0) {
+    Eigen::VectorXd turning = turning_as_one(system, stage.rotors, "input");
+    turning[system.find("sun_u")] = 1;
+    momentum = turning.dot(system.mass() * (steady.end.v - steady.begin.v)) * stage.sun_base_radius() / span;
+  }
   return std::abs(meshes + momentum - torque) / torque;
 }
 
@@ -116,8 +116,7 @@ int period_in_crank_turns(const TwoKVStage& stage) {
   return std::lcm(turns(stage.sun_mesh, stage.planet_teeth), turns(stage.arc_mesh, stage.arc_teeth));
 }
 
-TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& given) {
-  auto options = given;
+LumpedCase lumped_case(const TwoKVStage& stage) {
   stage.check();
   if (!(stage.output_speed > 0))
     throw InputError(
@@ -129,10 +128,15 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& given) 
     throw InputError(
         fmt::format("2K-V stage: with input and output fixed the torque of {} N m has no effect; leave one end free",
                     stage.output_torque));
-  const LumpedSystem system = assemble(stage);
-  const double arc_force = stage.mean_arc_mesh_force();
-  const SteadyProblem problem{stage.sun_mesh_frequency(), period_in_crank_turns(stage) * stage.planet_teeth, arc_force,
-                              mean_stiffness(stage.arc_mesh)};
+  return {assemble(stage),
+          {stage.sun_mesh_frequency(), period_in_crank_turns(stage) * stage.planet_teeth, stage.mean_arc_mesh_force(),
+           mean_stiffness(stage.arc_mesh)}};
+}
+
+TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& given) {
+  auto options = given;
+  const auto [system, problem] = lumped_case(stage);
+  const double arc_force = problem.force_scale;
   TwoKVResponse response;
   response.largest_multiplier = shoot_for_start(stage, system, problem, options);
   auto steady = steady_response(system, problem, options);
@@ -152,6 +156,7 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& given) 
   response.arc_pins = branch_results(steady, stage.cranks, stage.arc_gears, arc_force,
                                      stage.sun_mesh_frequency() / stage.arc_mesh_frequency());
   response.arc_bearings = bearing_results(stage, steady.best.force);
+  response.shafts = shaft_results(system, stage.rotors, stage.shaft_ends(), steady);
   response.torque_balance_relative = torque_balance(stage, system, steady);
   if (steady.window_cycles % stage.planet_teeth == 0)
     response.error_spectrum = spectrum(response.dynamic.series, response.crank_turns);

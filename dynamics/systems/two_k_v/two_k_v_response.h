@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/figures/mesh_results.h"
+#include "dynamics/figures/shaft_results.h"
 #include "dynamics/figures/spectrum.h"
 #include "dynamics/systems/two_k_v/two_k_v.h"
 
@@ -40,12 +41,16 @@ struct TwoKVResponse : SteadyOutcome {
   /// Largest modulus of a Floquet multiplier of one period, without the double unit one of a rigid motion. Below 1 the
   /// motion is stable, above 1 the changing stiffness feeds it. Absent without shooting.
   std::optional<double> largest_multiplier;
+  std::vector<ShaftResult> shafts;
   TimeSeries series;  ///< empty without `keep_series`
 };
 
 /// Turns of the crank against the carrier after which everything repeats: one, unless a table spans several cycles. One
 /// turn moves every sun mesh on by z_p whole cycles and every arc mesh by z_a, and restores the bearing directions.
 [[nodiscard]] int period_in_crank_turns(const TwoKVStage& stage);
+
+/// The system that is solved, with its cycles those of the sun meshes. Throws InputError without speed or torque.
+[[nodiscard]] LumpedCase lumped_case(const TwoKVStage& stage);
 
 /// Periodic steady state at output_speed under output_torque (both > 0), with mesh stiffnesses and bearing directions
 /// that change in time.

@@ -11,6 +11,20 @@ namespace annulus::benchmarks {
 
 std::string deck_field(double value) { return fmt::format("{:.12g}", value); }
 
+std::string spring_field(double value) { return fmt::format("{:.9e}", value); }
+
+void write_equation(fmt::ostream& out, const DeckEquation& equation) {
+  out.print("*EQUATION\n{}\n", equation.size());
+  constexpr std::size_t per_line = 4;
+  for (std::size_t i = 0; i < equation.size(); ++i)
+    out.print("{}{}, {}, {}",
+              i == 0              ? ""
+              : i % per_line == 0 ? "\n"
+                                  : ", ",
+              equation[i].node, equation[i].component, deck_field(equation[i].factor));
+  out.print("\n");
+}
+
 void write_body(fmt::ostream& out, const QuadraticBody& body, const std::string& name, int first_node, int first_cell) {
   out.print("*NODE\n");
   for (std::size_t i = 0; i < body.nodes.size(); ++i)

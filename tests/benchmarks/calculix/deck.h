@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "benchmarks/calculix/quadratic_body.h"
 #include "fem/problem/material.h"
@@ -16,6 +17,15 @@ inline constexpr double deck_mm = 1e-3, deck_MPa = 1e6, slice_width = 1;  ///< t
 
 /// Free fields of an input deck are read to 20 characters only.
 [[nodiscard]] std::string deck_field(double value);
+/// A stiffness, N/mm: *SPRING reads whole numbers as degrees of freedom, so that it needs a decimal point.
+[[nodiscard]] std::string spring_field(double value);
+struct DeckTerm {
+  int node, component;
+  double factor;
+};
+using DeckEquation = std::vector<DeckTerm>;
+/// The terms add up to zero; the first one is determined by the others.
+void write_equation(fmt::ostream& out, const DeckEquation& equation);
 /// Nodes and cells of a body, numbered from `first_node` + 1 and `first_cell` + 1.
 void write_body(fmt::ostream& out, const QuadraticBody& body, const std::string& name, int first_node, int first_cell);
 void write_material(fmt::ostream& out, const fem::Material& material, const std::vector<std::string>& parts);

@@ -4,7 +4,6 @@
 #include <fmt/os.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -13,15 +12,13 @@
 #include <sstream>
 
 #include "benchmarks/calculix/deck.h"
+#include "benchmarks/calculix/support_arc.h"
 #include "core/errors.h"
 
 namespace annulus::benchmarks {
 namespace {
 
 using geometry::Boundary;
-
-/// *SPRING reads whole numbers as degrees of freedom, so that a stiffness needs a decimal point.
-std::string real_field(double value) { return fmt::format("{:.9e}", value); }
 
 /// Nodes beside those of the bodies, whose displacements stand for motions of rigid hubs, pins and supports.
 struct References {
@@ -77,39 +74,10 @@ class StageDeck {
     for (const int node : gear.body.nodes_on(Boundary::support)) {
       const Eigen::Vector2d arm = (gear.body.nodes[node] - gear.axis) / deck_mm;
       for (const int direction : {1, 2})
-        out_.print("*EQUATION\n3\n{}, {}, 1., {}, {}, -1., {}, 1, {}\n", part.first_node + node + 1, direction,
-                   references_.centre[number], direction, references_.rotation[number],
-                   deck_field(direction == 1 ? arm.y() : -arm.x()));
+        write_equation(out_, {{part.first_node + node + 1, direction, 1},
+                              {references_.centre[number], direction, -1},
+                              {references_.rotation[number], 1, direction == 1 ? arm.y() : -arm.x()}});
     }
-  }
-  /// Shares of the nodes of the ring's outside in the mean displacement of a site.
-  [[nodiscard]] std::map<int, double> shares(const fem::SupportSite& site) const {
-    std::map<int, double> result;
-    constexpr std::array<std::pair<double, double>, 3> gauss{
-        {{-0.774596669241483, 5.0 / 9}, {0, 8.0 / 9}, {0.774596669241483, 5.0 / 9}}};
-    for (const auto& side : job_.ring.sides) {
-      if (side.boundary != Boundary::support) continue;
-      const auto& cell = job_.ring.cells[side.cell];
-      const std::array<int, 3> nodes{cell[side.number], cell[4 + side.number], cell[(side.number + 1) % 4]};
-      const auto angle = [&](int node) {
-        const auto& p = job_.ring.nodes[node];
-        return std::remainder(std::atan2(p.y(), p.x()) - site.angle, 2 * std::numbers::pi);
-      };
-      const double from = angle(nodes[0]), to = angle(nodes[2]);
-      if (std::abs(to - from) > 1) continue;  // the side opposite to the site, where angles jump
-      const double low = std::max(std::min(from, to), -site.half_arc),
-                   high = std::min(std::max(from, to), site.half_arc);
-      if (high <= low) continue;
-      for (const auto& [place, weight] : gauss) {
-        const double t = (low + high + (high - low) * place) / 2, x = t / site.half_arc;
-        const double share = (site.parabolic ? 0.75 * (1 - x * x) : 0.5) * weight * (high - low) / 2 / site.half_arc;
-        const double u = 2 * (t - from) / (to - from) - 1;
-        result[nodes[0]] += share * u * (u - 1) / 2;
-        result[nodes[1]] += share * (1 - u * u);
-        result[nodes[2]] += share * u * (u + 1) / 2;
-      }
-    }
-    return result;
   }
   /// Displacements 1 and 2 of a site's node are those of the site in its two directions.
   void sites() {
@@ -121,15 +89,7 @@ class StageDeck {
         const auto& direction = site.directions[d];
         require(!direction.unilateral && direction.clearance == 0, "supports of the peer are two-sided springs");
         const double angle = site.angle + std::numbers::pi - std::atan2(direction.counter_clockwise, direction.inward);
-        const auto all = shares(site);
-        out_.print("*EQUATION\n{}\n{}, {}, -1.", 1 + 2 * all.size(), references_.site[i], d + 1);
-        int column = 1;
-        for (const auto& [node, share] : all)
-          for (const int axis : {1, 2}) {
-            out_.print("{}{}, {}, {}", column++ % 4 == 0 ? "\n" : ", ", first + node + 1, axis,
-                       deck_field(share * (axis == 1 ? std::cos(angle) : std::sin(angle))));
-          }
-        out_.print("\n");
+        write_mean_displacement(out_, {job_.ring, first}, site, angle, references_.site[i], static_cast<int>(d) + 1);
       }
     }
   }
@@ -139,7 +99,7 @@ class StageDeck {
     for (const auto& nodes : ends) out_.print("{}, {}\n", ++cells_, fmt::join(nodes, ", "));
     out_.print("*SPRING, ELSET={}\n{}{}\n{}\n", name, direction,
                ends.front().size() == 2 ? fmt::format(", {}", direction) : "",
-               real_field(stiffness * slice_width * deck_mm / job_.face_width * deck_mm));
+               spring_field(stiffness * slice_width * deck_mm / job_.face_width * deck_mm));
   }
   void material() {
     for (const int direction : {1, 2}) {

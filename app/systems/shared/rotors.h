@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "app/scene/scene_schema.h"
+#include "dynamics/system/drive_line.h"
+
+namespace annulus::app {
+
+/// [[rotor]]: inertias beside the gear set, at the ends of shafts. For every kind whose stage has rotors.
+[[nodiscard]] Table rotor_table();
+/// Their names, and where their shafts lead to.
+void check_rotors(Scene& scene, std::vector<Problem>& problems, const std::vector<dynamics::ShaftEnd>& ends);
+/// The rotors of a scene with [dynamics].
+[[nodiscard]] std::vector<dynamics::Rotor> rotors_of(const Scene& scene);
+
+}  // namespace annulus::app

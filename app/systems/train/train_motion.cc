@@ -1,0 +1,259 @@
+#include "app/systems/train/train_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/model/dynamics_members.h"
+#include "app/model/excitation.h"
+#include "app/model/table_errors.h"
+#include "app/plan/accuracy_choice.h"
+#include "app/results/cached_value.h"
+#include "app/results/content_id.h"
+#include "core/files.h"
+#include "core/log.h"
+#include "dynamics/figures/common_figures.h"
+#include "dynamics/modes/modal_energy.h"
+#include "dynamics/steady_state/integration_cost.h"
+
+namespace annulus {
+
+ANNULUS_MEMBERS(dynamics::TrainMesh, part, name, frequency, mean_force, dynamic_factor, largest_force, smallest_force,
+                contact_loss);
+/// Without its time series.
+template <>
+struct Members<dynamics::TrainResponse> {
+  template <class Response>
+  static auto of(Response& r) {
+    return std::tie(static_cast<dynamics::SteadyOutcome&>(r), r.mesh_frequency, r.meshes, r.shafts);
+  }
+};
+ANNULUS_MEMBERS(app::TrainMode, frequency, body, element, kinetic, strain);
+ANNULUS_MEMBERS(app::TrainMotion, response, figures, modes, shafts, time_series);
+ANNULUS_MEMBERS(dynamics::TrainShaft::End, part, body);
+ANNULUS_MEMBERS(dynamics::TrainShaft, name, from, to, stiffness, damping_ratio, half_backlash);
+
+}  // namespace annulus
+
+namespace annulus::app {
+
+namespace {
+
+constexpr const char* cached_motions = "responses";
+constexpr const char* train_point_method = "train 1";
+
+dynamics::SimulationOptions train_simulation(const Scene& scene, const dynamics::Train& train) {
+  auto options = given_simulation(*scene.dynamics, dynamics::steady_problem(train).mesh_frequency);
+  const auto choice = motion_choice(scene.accuracy);
+  options.samples_per_cycle = choice.samples_per_cycle;
+  options.confirmation = choice.confirmation;
+  options.confirm_beyond = scene.accuracy;
+  options.steady_tolerance = std::max(options.steady_tolerance, choice.steady_tolerance);
+  if (!scene.dynamics->relative_tolerance) options.integrator.relative_tolerance = choice.relative_tolerance;
+  return options;
+}
+
+/// Identity of everything that the answers depend on: the parts' own lumped models contain their scenes and tables.
+std::string train_id(const Scene& scene, const std::vector<WorkingPart>& parts,
+                     const std::vector<const MeshResult*>& tables, const dynamics::Train& train,
+                     const dynamics::SimulationOptions& options) {
+  std::string of_parts;
+  const auto own = tables_of_parts(parts, tables);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    of_parts += parts[i].name + " " + parts[i].system->model(0, own[i])->id() + "\n";
+  return identity_of(of_parts, train.shafts, train.rotors, scene.accuracy, options);
+}
+
+dynamics::Evaluation evaluation_of(const dynamics::Train& train, const dynamics::TrainResponse& response) {
+  dynamics::Evaluation evaluation{.figures = dynamics::figures(response),
+                                  .outcome = static_cast<const dynamics::SteadyOutcome&>(response)};
+  evaluation.figures.add(
+      dynamics::frequency_figures(dynamics::modes(train), dynamics::train_frequencies, dynamics::Multiples::once));
+  dynamics::add_each_shaft(evaluation.figures, response.shafts);
+  for (const auto& mesh : response.meshes) {
+    evaluation.figures.set(mesh.name + "_dynamic_factor", mesh.dynamic_factor);
+    evaluation.figures.set(mesh.name + "_force_N", mesh.largest_force);
+  }
+  return evaluation;
+}
+
+std::vector<TrainMode> modes_of(const dynamics::Train& train) {
+  const auto system = assemble(train);
+  const auto found = dynamics::modes(system);
+  const auto energy = dynamics::modal_energy(system, dynamics::mean_tangents(system), found);
+  std::vector<TrainMode> list;
+  for (std::size_t i = 0; i < found.modes.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    auto& mode = list.emplace_back(TrainMode{.frequency = found.modes[i].frequency});
+    Eigen::Index body = 0, element = 0;
+    mode.kinetic = energy.kinetic.col(column).maxCoeff(&body);
+    mode.body = energy.bodies[static_cast<std::size_t>(body)];
+    if (mode.frequency == 0) continue;
+    mode.strain = energy.strain.col(column).maxCoeff(&element);
+    mode.element = energy.elements[static_cast<std::size_t>(element)];
+  }
+  return list;
+}
+
+/// Torque of every shaft over its nominal one.
+Csv shaft_courses(const dynamics::TrainResponse& response) {
+  Csv csv{.header = {}, .columns = {"time_s"}, .rows = {}};
+  constexpr double shown = 60;  // cycles of the fastest mesh
+  const auto& series = response.series;
+  std::vector<Eigen::Index> rows;
+  for (const auto& shaft : response.shafts) {
+    // Those of the rotors carry their names.
+    const auto element = std::find_if(series.meshes.begin(), series.meshes.end(), [&](const std::string& name) {
+      return name == shaft.name || name == shaft.name + "_shaft";
+    });
+    rows.push_back(element - series.meshes.begin());
+    csv.columns.push_back(shaft.name);
+  }
+  for (Eigen::Index i = 0; i < series.time.size(); ++i) {
+    if ((series.time[i] - series.time[0]) * response.mesh_frequency > shown) break;
+    auto& row = csv.rows.emplace_back(1, series.time[i] - series.time[0]);
+    // Forces in the elements are torques over a radius that belongs to the shaft: in proportion to the mean.
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double mean = series.force.row(rows[k]).mean();
+      row.push_back(series.force(rows[k], i) / mean * response.shafts[k].mean_torque /
+                    response.shafts[k].nominal_torque);
+    }
+  }
+  csv.round();
+  return csv;
+}
+
+Csv series_table(const dynamics::TimeSeries& series) {
+  Csv csv;
+  csv.columns.emplace_back("time_s");
+  for (const auto& name : series.dofs) csv.columns.push_back(name + "_m");
+  for (const auto& name : series.meshes) csv.columns.push_back(name + "_force_N");
+  for (Eigen::Index i = 0; i < series.time.size(); ++i) {
+    auto& row = csv.rows.emplace_back(1, series.time[i]);
+    row.insert(row.end(), series.displacement.col(i).begin(), series.displacement.col(i).end());
+    row.insert(row.end(), series.force.col(i).begin(), series.force.col(i).end());
+  }
+  csv.round();
+  return csv;
+}
+
+/// The totals of the errors back into what they belong to.
+void set_errors(dynamics::TrainResponse& response, const FigureSet& figures) {
+  dynamics::set_errors(response.shafts, figures);
+  for (auto& mesh : response.meshes) {
+    mesh.dynamic_factor.error = figures.figure(mesh.name + "_dynamic_factor").error;
+    mesh.largest_force.error = figures.figure(mesh.name + "_force_N").error;
+  }
+}
+
+TrainMotion motion_of(const Scene& scene, const std::vector<WorkingPart>& parts,
+                      const std::vector<const MeshResult*>& tables, const dynamics::Train& train,
+                      const dynamics::SimulationOptions& options) {
+  TrainMotion motion{.response = dynamics::simulate(train, options)};
+  auto& response = motion.response;
+  const auto way = dynamics::comparison_options(response, options);
+  motion.figures = with_table_errors(
+      evaluation_of(train, response), tables,
+      [&](const std::vector<const MeshResult*>& changed) {
+        const auto other = make_train(scene, parts, changed);
+        return evaluation_of(other, dynamics::simulate(other, way.simulation));
+      },
+      way);
+  set_errors(response, motion.figures);
+  motion.modes = modes_of(train);
+  motion.shafts = shaft_courses(response);
+  motion.time_series = series_table(response.series).text();
+  response.series = {};
+  return motion;
+}
+
+StudyPoint point_of(const dynamics::Train& train, const dynamics::TrainResponse& response) {
+  return {.figures = {dynamics::train_figures(), [&] {
+                        auto figures = dynamics::figures(response);
+                        figures.add(dynamics::frequency_figures(dynamics::modes(train), dynamics::train_frequencies,
+                                                                dynamics::Multiples::once));
+                        return figures;
+                      }()}};
+}
+
+}  // namespace
+
+std::vector<PlannedResponse> train_responses(const Scene& scene, const std::vector<WorkingPart>& parts) {
+  if (!scene.dynamics) return {};
+  const auto train = rough_train(scene, parts);
+  const auto system = assemble(train);
+  const auto problem = dynamics::steady_problem(train);
+  const auto options = train_simulation(scene, train);
+  int tables = 0;
+  for (const auto& part : parts)
+    for (const auto& mesh : part.system->model_meshes()) tables += mesh.computed() ? 1 : 0;
+  const auto stiffness = tables > 0 ? dynamics::StiffnessCourse::sudden : dynamics::StiffnessCourse::smooth;
+  const int period = std::min(problem.period_in_cycles, options.max_window_cycles);
+  const auto course = dynamics::steady_course(system, problem.mesh_frequency, period, options, stiffness);
+  const double per_cycle =
+      dynamics::integration_seconds(system, problem.mesh_frequency, 1, options.integrator, stiffness);
+  // And on the unchanged tables in the same way.
+  const double runs = comparisons(tables) + (tables > 0 ? 1 : 0);
+  const double cycles = course.cycles + runs * course.compared_cycles + course.searched_cycles;
+  const double balances = course.balance_s * (1 + (course.compared_cycles > 0 ? 0 : runs));
+  const double study_s = course.balance_s + scene.dynamics->mesh_cycles.value_or(0) * per_cycle;
+  return {{.label = "dynamics of the train",
+           .ring = "",
+           .size = {.work = tables > 0 ? Work::response : Work::response_prescribed,
+                    .unknowns = static_cast<double>(system.dofs()) / 3 * period,
+                    .motion_s = balances + cycles * per_cycle},
+           .study_s = study_s,
+           .sample_s = study_s}};
+}
+
+std::unique_ptr<LumpedModel> train_model(const Scene& scene, const std::vector<WorkingPart>& parts,
+                                         const std::vector<const MeshResult*>& tables) {
+  const auto train = std::make_shared<const dynamics::Train>(make_train(scene, parts, tables));
+  auto simulation = train_simulation(scene, *train);
+  simulation.confirmation = dynamics::Confirmation::where_needed;
+  simulation.estimate_error = false;
+  simulation.keep_series = false;
+  return std::make_unique<LumpedModel>(
+      identity_of(train_id(scene, parts, tables, *train, simulation), std::string(train_point_method)),
+      [train, simulation](Answer /*wanted*/) { return point_of(*train, dynamics::simulate(*train, simulation)); },
+      LumpedModel::Abilities{{},
+                             [train, simulation](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
+                               const auto response =
+                                   dynamics::simulate(*train, dynamics::followed_from(simulation, start));
+                               return {point_of(*train, response), response.end};
+                             },
+                             [train] { return dynamics::lumped_case(*train); }});
+}
+
+std::unique_ptr<TrainRunResponse> train_response(const Scene& scene, const std::vector<WorkingPart>& parts,
+                                                 const std::vector<const MeshResult*>& tables,
+                                                 const RunOptions& options) {
+  const auto train = make_train(scene, parts, tables);
+  auto simulation = train_simulation(scene, train);
+  simulation.other_motions.threads = options.threads;
+  const auto id = train_id(scene, parts, tables, train, simulation);
+  auto [motion, reused] = cached_value(options.store.get(), cached_motions, id,
+                                       [&] { return motion_of(scene, parts, tables, train, simulation); });
+  note_reuse(options, "dynamics of the train", reused);
+  const auto folder = options.out / "dynamics";
+  std::filesystem::create_directories(folder);
+  auto shafts = motion.shafts;
+  shafts.header = {{"annulus_version", version()}, {"inputs_id", id}};
+  shafts.write(folder / "shafts.csv");
+  write_file(folder / "time_series.csv", motion.time_series);
+  motion.time_series.clear();
+  const auto& found = motion.response;
+  log::info("dynamics of the train: " +
+            (reused ? "unchanged, reused"
+                    : fmt::format("{} mesh cycles of the fastest mesh, {}", found.window_cycles,
+                                  found.steady ? "periodic steady state" : "no periodic steady state")));
+  auto result = std::make_unique<TrainRunResponse>();
+  result->figures = motion.figures;
+  result->motions = found.motions;
+  result->shafts = found.shafts;
+  result->reused = reused;
+  result->motion = std::move(motion);
+  return result;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/model/gear_system.h"
+#include "app/systems/train/train_scene.h"
+#include "dynamics/systems/train/train.h"
+
+namespace annulus::app {
+
+/// A part at the operating point of its train.
+struct WorkingPart {
+  std::string name;
+  std::unique_ptr<const Scene> scene;
+  std::unique_ptr<const GearSystem> system;
+  double speed_over_own = 1, torque_over_own = 1;  ///< what its own scene says is multiplied by these
+};
+
+/// The parts of a train, each with the speed and torque that follow from the first one through the shafts.
+/// Throws InputError for parts that no shaft reaches, and for shafts whose ends both deliver or both take the power.
+[[nodiscard]] std::vector<WorkingPart> working_parts(const Scene& scene);
+
+/// The stiffness of the meshes of each part, from those of all parts one behind the other.
+[[nodiscard]] std::vector<std::vector<const MeshResult*>> tables_of_parts(const std::vector<WorkingPart>& parts,
+                                                                          const std::vector<const MeshResult*>& tables);
+/// The train on the stiffness of its meshes, which are referred to.
+[[nodiscard]] dynamics::Train make_train(const Scene& scene, const std::vector<WorkingPart>& parts,
+                                         const std::vector<const MeshResult*>& tables);
+/// The same before anything is solved.
+[[nodiscard]] dynamics::Train rough_train(const Scene& scene, const std::vector<WorkingPart>& parts);
+
+}  // namespace annulus::app

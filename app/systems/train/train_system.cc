@@ -1,0 +1,144 @@
+#include "app/systems/train/train_system.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <mutex>
+
+#include "app/model/excitation.h"
+#include "app/plan/plan.h"
+#include "app/scene/example_scenes.h"
+#include "app/systems/train/train_motion.h"
+#include "core/errors.h"
+#include "core/not_known.h"
+#include "core/units.h"
+#include "dynamics/figures/common_figures.h"
+
+namespace annulus::app {
+
+namespace {
+
+class TrainSystem final : public GearSystem {
+ public:
+  using GearSystem::GearSystem;
+
+  [[nodiscard]] std::string describe() const override {
+    std::vector<std::string> names;
+    for (const auto& part : scene().own<TrainInput>().parts) names.push_back(part.name);
+    return fmt::format("train of {}", fmt::join(names, ", "));
+  }
+
+  void check() const override {
+    for (const auto& part : parts()) try {
+        part.system->check();
+      } catch (const Error& error) {
+        throw InputError(fmt::format("part.name: part '{}': {}", part.name, error.what()));
+      }
+  }
+
+  [[nodiscard]] std::vector<MeshModel> meshes() const override {
+    std::vector<MeshModel> list;
+    for (const auto& part : parts())
+      for (auto& mesh : part.system->model_meshes()) list.push_back(of_train(part, std::move(mesh)));
+    return list;
+  }
+
+  /// Every mesh has its own: those of the parts are compared with the tables by their loads.
+  [[nodiscard]] double mean_mesh_force() const override { return not_known; }
+
+  [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
+    for (const auto& part : parts())
+      for (const auto& own : part.system->model_meshes()) {
+        if (of_train(part, own).title != mesh.title) continue;
+        auto original = mesh;
+        original.title = own.title;
+        original.ring = own.ring;
+        auto inside = options;
+        inside.out /= part.name;
+        auto result = part.system->stiffness(original, inside);
+        result.model = mesh;
+        return result;
+      }
+    throw InternalError("internal error: no part has the mesh '" + mesh.title + "'");
+  }
+
+  [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t /*variant*/,
+                                                   const std::vector<const MeshResult*>& tables) const override {
+    return train_model(scene(), parts(), tables);
+  }
+
+  [[nodiscard]] std::vector<PlannedResponse> responses() const override { return train_responses(scene(), parts()); }
+
+  [[nodiscard]] bool offers(SweepDirection /*direction*/) const override { return true; }
+
+  [[nodiscard]] FigureSet table_figures(const std::vector<const MeshResult*>& /*tables*/) const override { return {}; }
+
+  [[nodiscard]] std::vector<Warning> scene_warnings() const override {
+    std::vector<Warning> list;
+    for (const auto& part : parts())
+      for (auto& warning : part.system->plan(1).warnings) {
+        warning.where = part.name + (warning.where.empty() ? "" : ", " + warning.where);
+        list.push_back(std::move(warning));
+      }
+    return list;
+  }
+
+  [[nodiscard]] std::unique_ptr<RunResponse> respond(const SystemRun& run, std::size_t variant,
+                                                     const RunOptions& options) const override {
+    return train_response(scene(), parts(), run.tables_of(variant), options);
+  }
+
+  [[nodiscard]] Json summary(const SystemRun& run) const override { return train_summary(run); }
+  [[nodiscard]] Page report(const SystemRun& run) const override { return train_report(run, parts()); }
+
+ protected:
+  void describe(Plan& plan) const override {
+    plan.inputs = resolved_inputs(scene(), {});
+    for (const auto& part : parts()) {
+      for (const auto& body : part.system->turning_bodies()) {
+        const auto name = part.name + "_" + body.name;
+        const auto words = fmt::format("{} of part '{}'", body.name, part.name);
+        plan.quantities.push_back(quantity(name + "_speed_rpm", std::abs(body.speed), "speed, " + words));
+        plan.quantities.push_back(quantity(name + "_torque_Nm", std::abs(body.torque), "torque, " + words));
+      }
+      for (auto& dof : part.system->plan(1).dofs) {
+        dof.name = part.name + ": " + dof.name;
+        plan.dofs.push_back(std::move(dof));
+      }
+    }
+    plan.remarks.emplace_back(
+        "The parts act on each other through the rotations of their bodies alone. Each keeps its own supports.");
+  }
+
+ private:
+  [[nodiscard]] const std::vector<WorkingPart>& parts() const {
+    std::call_once(made_, [this] { parts_ = working_parts(scene()); });
+    return parts_;
+  }
+
+  static MeshModel of_train(const WorkingPart& part, MeshModel mesh) {
+    mesh.title = part.name + ": " + mesh.label();
+    mesh.ring.clear();
+    return mesh;
+  }
+
+  mutable std::once_flag made_;
+  mutable std::vector<WorkingPart> parts_;
+};
+
+}  // namespace
+
+SystemKind train_kind() {
+  return {{.name = "train",
+           .tables = train_tables,
+           .check = check_train_scene,
+           .results = [] { return figure_keys(dynamics::train_figures()); },
+           .example = "",
+           .gears = false},
+          dynamics::train_figures,
+          dynamics::train_figures,
+          [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<TrainSystem>(scene); }};
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,236 @@
+#include <fmt/format.h>
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <string>
+
+#include "app/scene/scene.h"
+#include "app/scene/scene_schema.h"
+#include "core/csv.h"
+#include "core/errors.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "tests/app/run_program.h"
+#include "tests/app/scene_refusal.h"
+#include "tests/app/scenes.h"
+#include "tests/app/two_k_v_scenes.h"
+#include "tests/temporary_folder.h"
+
+/// Scenes with rotors on shafts, and trains of several scenes.
+BOOST_AUTO_TEST_SUITE(drive_lines)
+
+using namespace annulus;
+
+namespace {
+
+constexpr const char* rotors = R"([[rotor]]
+name = "motor"
+on = "sun"
+inertia_kg_m2 = 0.2
+shaft_Nm_per_rad = 2e5
+[[rotor]]
+name = "flywheel"
+on = "motor"
+inertia_kg_m2 = 0.4
+shaft_Nm_per_rad = 1e5
+shaft_damping_ratio = 0.01
+shaft_backlash_deg = 0.1
+)";
+
+/// Until the motion repeats.
+std::string steady_stage() { return test::replaced(test::quick_scene(), "mesh_cycles = 110\n", ""); }
+
+/// A pair with a prescribed stiffness.
+std::string pair_scene(int pinion, int wheel, double torque, double speed) {
+  return fmt::format(R"(title = "Pair"
+[stage]
+kind = "helical_pair"
+module_mm = 4
+pressure_angle_deg = 20
+face_width_mm = 40
+pinion_torque_Nm = {}
+pinion_speed_rpm = {}
+[material]
+youngs_modulus_GPa = 206
+[pinion]
+teeth = {}
+profile_shift = 0
+mass_kg = 3
+bearing_transverse_N_per_m = inf
+[wheel]
+teeth = {}
+profile_shift = 0
+mass_kg = 3
+bearing_transverse_N_per_m = inf
+[mesh.pinion_wheel]
+stiffness = "harmonic"
+mean_N_per_m = 4e8
+ripple = 0.05
+[dynamics]
+half_backlash_um = 100
+mesh_damping_ratio = 0.07
+support_damping_ratio = 0.03
+)",
+                     torque, speed, pinion, wheel);
+}
+
+std::string train_scene(const std::string& more = "") {
+  return R"(title = "Train"
+[stage]
+kind = "train"
+[[part]]
+name = "first"
+file = "first.toml"
+[[part]]
+name = "second"
+file = "parts/second.toml"
+[[shaft]]
+name = "between"
+from = "first.wheel"
+to = "second.pinion"
+stiffness_Nm_per_rad = 5e4
+[[rotor]]
+name = "motor"
+on = "first.pinion"
+inertia_kg_m2 = 0.05
+shaft_Nm_per_rad = 1e5
+[dynamics]
+support_damping_ratio = 0.05
+)" + more;
+}
+
+/// The second part states other speeds and torques than it gets.
+void write_train(const test::TemporaryFolder& folder, const std::string& more = "") {
+  write_file(folder.path() / "train.toml", train_scene(more));
+  write_file(folder.path() / "first.toml", pair_scene(20, 30, 200, 1200));
+  std::filesystem::create_directories(folder.path() / "parts");
+  write_file(folder.path() / "parts" / "second.toml", pair_scene(25, 35, 500, 333));
+}
+
+Json summary_of(const test::TemporaryFolder& folder) {
+  return Json::parse(read_file(folder.path() / "out" / "summary.json"));
+}
+
+std::string refusal_of(const test::TemporaryFolder& folder) {
+  try {
+    (void)app::read_scene(folder.path() / "train.toml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(shafts_of_a_stage) {
+  const test::TemporaryFolder folder("rotors");
+  write_file(folder.path() / "scene.toml", steady_stage() + rotors);
+  const auto outcome = test::run_program(folder.path(), "run scene.toml --out out --quiet");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  const auto summary = summary_of(folder);
+  const auto& ring = *summary["rings"].begin();
+  BOOST_TEST_REQUIRE(ring["shafts"].size() == 2u);
+  const double torque = summary["operating_point"]["sun_torque_N_m"];
+  for (const auto& shaft : ring["shafts"]) {
+    BOOST_TEST(std::abs(shaft["nominal_torque_N_m"].get<double>() / torque - 1) < 1e-9);
+    BOOST_TEST(std::abs(shaft["mean_torque_N_m"].get<double>() / torque - 1) < 1e-3);
+    BOOST_TEST(shaft["torque_factor"]["value"].get<double>() >= 1);
+  }
+  BOOST_TEST(ring["shafts"][1]["on"] == "motor");
+  const auto report = read_file(folder.path() / "out" / "report.html");
+  BOOST_TEST(report.find("flywheel – motor") != std::string::npos);
+  // A change of a rotor changes no table, but the motion.
+  const auto again =
+      test::run_program(folder.path(), "run scene.toml --out out --set rotor.motor.inertia_kg_m2=0.3 --quiet");
+  BOOST_TEST_REQUIRE(again.status == 0, again.err);
+  const auto changed = summary_of(folder);
+  BOOST_TEST(changed["rings"].begin()->at("natural_frequencies_Hz")[1]["value"].get<double>() <
+             ring["natural_frequencies_Hz"][1]["value"].get<double>());
+}
+
+BOOST_AUTO_TEST_CASE(rotors_that_are_refused) {
+  const auto refused = [](const std::string& from, const std::string& to) {
+    return test::scene_refusal(test::replaced(steady_stage() + rotors, from, to));
+  };
+  const std::string second = "on = \"motor\"";
+  BOOST_TEST(refused(second, "on = \"ring\"").find("it is held") != std::string::npos);
+  BOOST_TEST(refused(second, "on = \"sun\"").find("let this one lead to 'motor'") != std::string::npos);
+  BOOST_TEST(refused(second, "on = \"flywheel\"").find("no body") != std::string::npos);
+  BOOST_TEST(refused("name = \"flywheel\"", "name = \"planet3\"").find("that of a body") != std::string::npos);
+  BOOST_TEST(refused("inertia_kg_m2 = 0.4", "inertia_kg_m2 = 0").find("rotor.inertia_kg_m2") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_train) {
+  const test::TemporaryFolder folder("train");
+  write_train(folder);
+  const auto outcome = test::run_program(folder.path(), "run train.toml --out out --quiet");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  const auto summary = summary_of(folder);
+  BOOST_TEST(summary["dynamics"]["steady"] == true);
+  // By hand: 1200 r/min and 200 N m, 20/30, then 25/35.
+  BOOST_TEST_REQUIRE(summary["meshes"].size() == 2u);
+  BOOST_TEST(std::abs(summary["meshes"][0]["mesh_frequency_Hz"].get<double>() - 400) < 1e-6);
+  BOOST_TEST(std::abs(summary["meshes"][1]["mesh_frequency_Hz"].get<double>() - 25 * 800 / 60.0) < 1e-6);
+  const double base = 4e-3 * 25 / 2 * std::cos(20 * M_PI / 180);
+  BOOST_TEST(std::abs(summary["meshes"][1]["mean_force_N"].get<double>() * base / 300 - 1) < 1e-3);
+  BOOST_TEST_REQUIRE(summary["shafts"].size() == 2u);
+  BOOST_TEST(std::abs(summary["shafts"][0]["mean_torque_N_m"].get<double>() / 300 - 1) < 1e-3);
+  BOOST_TEST(std::abs(summary["shafts"][1]["mean_torque_N_m"].get<double>() / 200 - 1) < 1e-3);
+  // 6 cycles of the first mesh and 5 of the second one.
+  BOOST_TEST(summary["dynamics"]["whole_period"] == true);
+  const auto plan = test::run_program(folder.path(), "plan train.toml");
+  BOOST_TEST(plan.out.find("second") != std::string::npos, plan.out);
+  // A part that has changed: nothing is taken for unchanged.
+  write_file(folder.path() / "parts" / "second.toml", pair_scene(26, 35, 500, 333));
+  BOOST_TEST_REQUIRE(test::run_program(folder.path(), "run train.toml --out out --quiet").status == 0);
+  BOOST_TEST(std::abs(summary_of(folder)["meshes"][1]["mesh_frequency_Hz"].get<double>() - 26 * 800 / 60.0) < 1e-6);
+}
+
+BOOST_AUTO_TEST_CASE(a_sweep_of_a_train) {
+  const test::TemporaryFolder folder("train_sweep");
+  write_train(folder, R"([[sweep]]
+input = "stage.speed_factor"
+from = 0.5
+to = 2
+count = 4
+[[sweep]]
+input = "shaft.between.stiffness_Nm_per_rad"
+from = 1e4
+to = 1e5
+count = 3
+)");
+  const auto outcome = test::run_program(folder.path(), "run train.toml --out out --quiet");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  const auto sweeps = summary_of(folder)["sweeps"];
+  BOOST_TEST(sweeps.size() == 2u, outcome.err);
+}
+
+BOOST_AUTO_TEST_CASE(trains_that_are_refused) {
+  const test::TemporaryFolder folder("bad_train");
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& word) {
+    write_train(folder);
+    write_file(folder.path() / "train.toml", test::replaced(train_scene(), from, to));
+    const auto text = refusal_of(folder);
+    BOOST_TEST(text.find(word) != std::string::npos, text);
+  };
+  refused("file = \"first.toml\"", "file = \"furst.toml\"", "no such file");
+  refused("file = \"first.toml\"", "file = \"../first.toml\"", "leads out of the scene's folder");
+  refused("file = \"first.toml\"", "file = \"train.toml\"", "part.file");
+  refused("name = \"second\"", "name = \"first\"", "used for two parts");
+  refused("name = \"second\"", "name = \"a.b\"", "letters");
+  refused("from = \"first.wheel\"", "from = \"first.sun\"", "must be one of first.pinion");
+  refused("kind = \"train\"", "kind = \"train\"\nmodule_mm = 3", "stage.module_mm");
+  refused("support_damping_ratio = 0.05", "support_damping_ratio = 0.05\nhalf_backlash_um = 3", "half_backlash_um");
+  write_train(folder);
+  write_file(folder.path() / "first.toml", test::replaced(pair_scene(20, 30, 200, 1200), "module_mm = 4\n", ""));
+  BOOST_TEST(refusal_of(folder).find("stage.module_mm") != std::string::npos);
+  // Both ends of a shaft take up power.
+  write_train(folder);
+  write_file(folder.path() / "train.toml",
+             test::replaced(train_scene(), "to = \"second.pinion\"", "to = \"second.wheel\""));
+  const auto outcome = test::run_program(folder.path(), "check train.toml");
+  BOOST_TEST(outcome.status != 0);
+  BOOST_TEST(outcome.err.find("both deliver power") != std::string::npos, outcome.err);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
