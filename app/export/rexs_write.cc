@@ -12,6 +12,7 @@
 #include "app/export/rexs.h"
 #include "app/plan/gear_geometry.h"
 #include "app/results/content_id.h"
+#include "app/scene/scene_kind.h"
 #include "app/scene/scene_schema.h"
 #include "app/systems/helical_pair/pair_model.h"
 #include "app/systems/planetary/power_flow.h"
@@ -213,6 +214,9 @@ std::string rexs_text(const Scene& computed, const std::string& ring) {
     stage(rexs, "pinion - wheel", pair_centre_distance(scene), unit, pinion, wheel);
     return rexs.text();
   }
+  if (!scene_kind(scene.stage.kind).gears)
+    throw InputError(fmt::format("{}: a {} has no gears of its own; export the scenes of its parts",
+                                 scene.file.string(), scene.stage.kind));
   const auto found =
       std::find_if(scene.rings.begin(), scene.rings.end(), [&](const auto& r) { return r.name == ring; });
   if (found == scene.rings.end()) {

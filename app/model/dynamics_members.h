@@ -56,7 +56,8 @@ ANNULUS_MEMBERS(dynamics::SimulationOptions, steady_state, confirmation, samplin
                 periodic, integrator, start, mesh_cycles, steady_tolerance, max_windows, samples, min_window,
                 max_window, estimate_error, other_motions);
 
-ANNULUS_MEMBERS(dynamics::Rotor, name, on, inertia, shaft_stiffness, shaft_damping_ratio, half_backlash);
+ANNULUS_MEMBERS(dynamics::Rotor::Ripple, order, amplitude, phase);
+ANNULUS_MEMBERS(dynamics::Rotor, name, on, inertia, shaft_stiffness, shaft_damping_ratio, half_backlash, ripples);
 ANNULUS_MEMBERS(dynamics::ShaftResult, name, on, nominal_torque, mean_torque, smallest_torque, largest_torque,
                 contact_loss);
 ANNULUS_MEMBERS(dynamics::PeriodicSolution, method, converged, trouble, residual, newton_iterations, linear_iterations,

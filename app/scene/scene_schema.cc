@@ -25,6 +25,8 @@ auto by_name(List& parameters, const std::string& name) {
 /// Leaves out what belongs to gears.
 void drop_gears(std::vector<Table>& tables) {
   tables.erase(by_path(tables, "material"));
+  auto& top = by_path(tables, "")->parameters;
+  top.erase(by_name(top, "model"));
   auto& stage = by_path(tables, "stage")->parameters;
   stage.erase(std::remove_if(stage.begin(), stage.end(), [](const Parameter& p) { return p.name != "kind"; }),
               stage.end());

@@ -335,7 +335,7 @@ TradeOff measure_tradeoff(const Scene& scene, const RunOptions& given, const Tra
     trade.variants.push_back(Measurement(*system, variant, options, lists).run());
     if (trade.variants.back().points.empty())
       throw InputError(
-          fmt::format("{}: '{}' has a prescribed stiffness and only one way to compute its results: there are no "
+          fmt::format("{}: '{}' has only one way to compute its results: there are no "
                       "settings to compare",
                       scene.file.string(), system->title(variant)));
   }

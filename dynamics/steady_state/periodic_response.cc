@@ -56,7 +56,7 @@ Reference reference_of(const LumpedSystem& system) {
   const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
   Reference reference{Eigen::Map<const Eigen::VectorXd>(workspace.delta.data(), meshes), 0};
   for (int m = 0; m < meshes; ++m)
-    if (system.is_whole_mesh(m))
+    if (system.is_gear_mesh(m))
       reference.scale = std::max(reference.scale, std::abs(workspace.force[m]) / workspace.stiffness[m]);
   if (!(reference.scale > 0)) reference.scale = std::max(reference.deflection.cwiseAbs().maxCoeff(), 1e-9);
   return reference;

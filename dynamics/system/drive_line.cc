@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/errors.h"
+#include "core/whole_ratio.h"
 #include "dynamics/system/input_checks.h"
+#include "dynamics/system/periods.h"
 #include "dynamics/system/support.h"
 
 namespace annulus::dynamics {
@@ -77,7 +80,28 @@ void check_rotors(const std::vector<Rotor>& rotors, const std::vector<ShaftEnd>&
     check_positive(rotor.shaft_stiffness, of("shaft stiffness"));
     check_not_negative(rotor.shaft_damping_ratio, of("shaft damping ratio"));
     check_not_negative(rotor.half_backlash, of("half backlash"));
+    const double speed = end_of(rotor, rotors, ends).speed;
+    for (const auto& ripple : rotor.ripples) {
+      check_positive(ripple.order, of("order of a torque"));
+      if (!std::isfinite(ripple.amplitude) || !std::isfinite(ripple.phase))
+        throw InputError(fmt::format("rotor '{}': a torque of {} N m with phase {} rad must be finite", rotor.name,
+                                     ripple.amplitude, ripple.phase));
+      if (speed == 0)
+        throw InputError(
+            fmt::format("rotor '{}': a torque of order {} needs a rotor that turns", rotor.name, ripple.order));
+    }
   }
+}
+
+int ripple_period(const std::vector<Rotor>& rotors, const std::vector<ShaftEnd>& ends, double frequency) {
+  int period = 1;
+  for (const auto& rotor : rotors)
+    for (const auto& ripple : rotor.ripples) {
+      const double own = ripple.order * std::abs(end_of(rotor, rotors, ends).speed) / (2 * std::numbers::pi);
+      const auto ratio = whole_ratio(frequency / own);
+      period = ratio ? common_period(period, static_cast<int>(ratio->first)) : never_repeats;
+    }
+  return period;
 }
 
 std::vector<std::size_t> rotors_of(const std::vector<Rotor>& rotors, const std::string& body) {
@@ -124,10 +148,15 @@ LumpedSystem with_rotors(const LumpedSystem& system, const std::vector<Rotor>& r
       const LinearForm u = builder.add_dof(dof_of(rotor.name));
       const double mass = rotor.inertia / square, stiffness = rotor.shaft_stiffness / square;
       builder.add_mass(u, mass);
+      const double sense = load < 0 ? -1 : 1;
+      for (const auto& ripple : rotor.ripples) {
+        const double force = sense * ripple.amplitude / end.radius;
+        builder.add_harmonic_load(u, ripple.order * std::abs(end.speed), force * std::cos(ripple.phase),
+                                  -force * std::sin(ripple.phase));
+      }
       MeshElement shaft;
       shaft.name = rotor.name + "_shaft";
       shaft.shaft = true;
-      const double sense = load < 0 ? -1 : 1;
       shaft.b = sense * u + (-sense) * before;
       shaft.excitation = ConstantStiffness{stiffness};
       shaft.damping = critical_share(rotor.shaft_damping_ratio, stiffness, 1 / (1 / mass + 1 / mass_before));

@@ -15,6 +15,14 @@ struct Rotor {
   double shaft_stiffness = 0;      ///< N m/rad
   double shaft_damping_ratio = 0;  ///< zeta in c = 2 zeta sqrt(k J), 1/J = 1/J_1 + 1/J_2 of what the shaft connects
   double half_backlash = 0;        ///< rad, half of the free rotation of the shaft in its couplings
+  /// A torque amplitude cos(order x angle + phase) beside that of the body, in its sense; the angle is that by which
+  /// the rotor has turned steadily since time 0.
+  struct Ripple {
+    double order = 0;      ///< per turn
+    double amplitude = 0;  ///< N m
+    double phase = 0;      ///< rad
+  };
+  std::vector<Ripple> ripples{};
 };
 
 /// A body of a gear set, or one of several such bodies, to which shafts may lead: its DOF <name>_u is radius x
@@ -23,6 +31,7 @@ struct ShaftEnd {
   std::string name;       ///< without number
   double radius = 0;      ///< m
   std::string refusal{};  ///< why no shaft can lead to it: "it is held"; empty: one can
+  double speed = 0;       ///< rad/s, of its steady rotation, either sign
 };
 
 /// The system with rotors, whose shafts lead to its bodies one behind the other. DOFs <rotor>_u = radius of the body x
@@ -43,6 +52,9 @@ struct RotorFault {
 };
 [[nodiscard]] RotorFault rotor_fault(const std::vector<Rotor>& rotors, std::size_t rotor,
                                      const std::vector<ShaftEnd>& ends);
+
+/// Cycles of a frequency (Hz) after which all ripples repeat; never_repeats where there is no such number.
+[[nodiscard]] int ripple_period(const std::vector<Rotor>& rotors, const std::vector<ShaftEnd>& ends, double frequency);
 
 /// The rotors of a body, the nearest first, by their places in `rotors`.
 [[nodiscard]] std::vector<std::size_t> rotors_of(const std::vector<Rotor>& rotors, const std::string& body);

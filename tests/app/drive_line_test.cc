@@ -157,6 +157,10 @@ BOOST_AUTO_TEST_CASE(rotors_that_are_refused) {
   BOOST_TEST(refused(second, "on = \"sun\"").find("let this one lead to 'motor'") != std::string::npos);
   BOOST_TEST(refused(second, "on = \"flywheel\"").find("no body") != std::string::npos);
   BOOST_TEST(refused("name = \"flywheel\"", "name = \"planet3\"").find("that of a body") != std::string::npos);
+  BOOST_TEST(refused("inertia_kg_m2 = 0.4", "inertia_kg_m2 = 0.4\nripple_orders = [1, 2]\nripple_torques_Nm = [3]")
+                 .find("has 1 values for 2 orders") != std::string::npos);
+  BOOST_TEST(refused("inertia_kg_m2 = 0.4", "inertia_kg_m2 = 0.4\nripple_orders = [1, 2]").find("ripple_torques_Nm") !=
+             std::string::npos);
   BOOST_TEST(refused("inertia_kg_m2 = 0.4", "inertia_kg_m2 = 0").find("rotor.inertia_kg_m2") != std::string::npos);
 }
 
@@ -184,6 +188,25 @@ BOOST_AUTO_TEST_CASE(a_train) {
   write_file(folder.path() / "parts" / "second.toml", pair_scene(26, 35, 500, 333));
   BOOST_TEST_REQUIRE(test::run_program(folder.path(), "run train.toml --out out --quiet").status == 0);
   BOOST_TEST(std::abs(summary_of(folder)["meshes"][1]["mesh_frequency_Hz"].get<double>() - 26 * 800 / 60.0) < 1e-6);
+}
+
+// Two cycles per turn of a four-stroke engine of four cylinders; 20 teeth: ten cycles of the mesh.
+BOOST_AUTO_TEST_CASE(an_engine) {
+  const test::TemporaryFolder folder("engine");
+  write_file(folder.path() / "scene.toml", pair_scene(20, 30, 200, 1200) + R"([[rotor]]
+name = "engine"
+on = "pinion"
+inertia_kg_m2 = 0.3
+shaft_Nm_per_rad = 2e4
+ripple_orders = [2, 4]
+ripple_torques_Nm = [150, 40]
+)");
+  const auto outcome = test::run_program(folder.path(), "run scene.toml --out out --quiet");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  const auto response = summary_of(folder)["response"];
+  BOOST_TEST(response["steady"] == true);
+  BOOST_TEST(response["window_cycles"].get<int>() % 10 == 0);
+  BOOST_TEST(response["shafts"][0]["torque_factor"]["value"].get<double>() > 1.01);
 }
 
 BOOST_AUTO_TEST_CASE(a_sweep_of_a_train) {
@@ -215,7 +238,7 @@ BOOST_AUTO_TEST_CASE(trains_that_are_refused) {
   };
   refused("file = \"first.toml\"", "file = \"furst.toml\"", "no such file");
   refused("file = \"first.toml\"", "file = \"../first.toml\"", "leads out of the scene's folder");
-  refused("file = \"first.toml\"", "file = \"train.toml\"", "part.file");
+  refused("file = \"first.toml\"", "file = \"train.toml\"", "cannot be that of a part");
   refused("name = \"second\"", "name = \"first\"", "used for two parts");
   refused("name = \"second\"", "name = \"a.b\"", "letters");
   refused("from = \"first.wheel\"", "from = \"first.sun\"", "must be one of first.pinion");

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <complex>
@@ -82,16 +83,19 @@ struct ByHand {
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass, Eigen::EigenvaluesOnly);
     return solver.eigenvalues().cwiseMax(0).cwiseSqrt() / tau;
   }
-  /// Amplitude of the torque of a shaft under an error of the mesh with an amplitude and a rate, rad/s.
+  /// Torque of a shaft under torques that change as exp(i rate t), rad/s: complex amplitudes.
+  [[nodiscard]] std::complex<double> torque(const Shaft& shaft, const Eigen::VectorXcd& load, double rate) const {
+    const std::complex<double> i(0, 1);
+    Eigen::MatrixXcd dynamic = (stiffness - rate * rate * mass).cast<std::complex<double>>();
+    dynamic += i * rate * damping.cast<std::complex<double>>();
+    const Eigen::VectorXcd angle = dynamic.partialPivLu().solve(load);  // free rotation is no obstacle: rate is not 0
+    return (shaft.stiffness + i * rate * shaft.damping) * (angle[shaft.from] - angle[shaft.to]);
+  }
+  /// Its amplitude under an error of the mesh.
   [[nodiscard]] double torque_amplitude(const Shaft& shaft, double error, double rate) const {
-    using Complex = std::complex<double>;
-    const Complex i(0, 1);
-    Eigen::MatrixXcd dynamic = (stiffness - rate * rate * mass).cast<Complex>();
-    dynamic += i * rate * damping.cast<Complex>();
-    const Eigen::VectorXcd load = (mesh_stiffness + i * rate * mesh_damping) * error * mesh.cast<Complex>();
-    // Small against the elastic ones, so that free rotation is no obstacle: rate is not 0.
-    const Eigen::VectorXcd angle = dynamic.partialPivLu().solve(load);
-    return std::abs((shaft.stiffness + i * rate * shaft.damping) * (angle[shaft.from] - angle[shaft.to]));
+    const std::complex<double> i(0, 1);
+    return std::abs(
+        torque(shaft, (mesh_stiffness + i * rate * mesh_damping) * error * mesh.cast<std::complex<double>>(), rate));
   }
 };
 
@@ -182,6 +186,48 @@ BOOST_AUTO_TEST_CASE(torques_of_the_shafts) {
                   (result.smallest_torque - torque + amplitude) / torque, 0, 2e-3, "smallest sample of 64");
       BOOST_TEST(result.largest_torque.error < 1e-2 * result.largest_torque.value);
     }
+  }
+}
+
+// Two orders on the motor and one on the flywheel, of different periods: 21 cycles of the mesh are a turn of the
+// pinion, 37 one of the wheel. In the frame of angles all senses are those of the loads.
+BOOST_AUTO_TEST_CASE(torques_that_change_with_the_rotation) {
+  annulus::test::Verification record("Torques of a motor and a machine that change with their rotation",
+                                     "complex amplitudes of the five inertias in angles, solved by hand, superposed");
+  auto pair = driven_pair();
+  pair.mesh_error = {};
+  const ByHand train(pair);
+  pair.pinion_speed = tau * 11;
+  BOOST_TEST(pair.error_period() == 1);
+  pair.rotors[0].ripples = {{3, 900, 0.4}, {6, 1500, -1}};
+  BOOST_TEST(pair.error_period() == 7);     // a third of a turn
+  pair.rotors[1].ripples = {{37, 700, 0}};  // once per cycle
+  BOOST_TEST(pair.error_period() == 7);
+  const auto response = evaluate_pair(pair, quick());
+  BOOST_TEST(response.steady);
+  const double turn = pair.pinion_speed, wheel_turn = std::abs(pair.wheel_speed());
+  const double ratio = pair.wheel.radius / pair.pinion.radius;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& shaft = train.shafts[i == 0 ? 0 : 3 - i];
+    const auto by = [&](int body, const Rotor::Ripple& ripple, double rate) {
+      const Eigen::VectorXcd load = std::polar(ripple.amplitude, ripple.phase) * Eigen::VectorXcd::Unit(5, body);
+      return std::pair{rate, train.torque(shaft, load, rate)};
+    };
+    const std::array waves{by(0, pair.rotors[0].ripples[0], 3 * turn), by(0, pair.rotors[0].ripples[1], 6 * turn),
+                           by(4, pair.rotors[1].ripples[0], 37 * wheel_turn)};
+    const double mean = pair.pinion_torque * (i == 0 ? 1 : ratio);
+    double largest = 0;
+    constexpr int places = 7 * 400;
+    for (int k = 0; k < places; ++k) {
+      const double t = 7 * k / (places * pair.mesh_frequency());
+      double torque = mean;
+      for (const auto& [rate, amplitude] : waves) torque += (amplitude * std::polar(1.0, rate * t)).real();
+      largest = std::max(largest, torque);
+    }
+    BOOST_TEST(largest > 1.01 * mean);
+    record.close("mean torque", "N m", response.shafts[i].mean_torque, mean, 1e-6, "accuracy of the periodic motion");
+    record.close("largest torque", "N m", response.shafts[i].largest_torque.value, largest, 1e-4,
+                 "accuracy of the periodic motion, peaks between samples");
   }
 }
 

@@ -126,6 +126,7 @@ struct RotorInput {
   double inertia = 0, shaft = 0;                ///< kg m^2, N m/rad
   std::optional<double> shaft_damping_ratio{};  ///< absent: that of the supports
   double shaft_backlash = 0;                    ///< rad, the whole of it
+  std::vector<double> ripple_orders{}, ripple_torques{}, ripple_phases{};  ///< per turn; N m; rad, empty: all 0
 };
 
 }  // namespace annulus::app

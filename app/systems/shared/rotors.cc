@@ -1,6 +1,9 @@
 #include "app/systems/shared/rotors.h"
 
+#include <fmt/format.h>
+
 #include <string>
+#include <utility>
 
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_declare.h"
@@ -26,6 +29,12 @@ class RotorChecker : KeyChecks {
       const auto fault = dynamics::rotor_fault(rotors, i, ends);
       if (!fault.name.empty() && usable("rotor.name", i)) problem("rotor.name", i, fault.name);
       if (!fault.on.empty() && usable("rotor.on", i)) problem("rotor.on", i, fault.on);
+      const auto& input = scene_.rotors[i];
+      const auto orders = input.ripple_orders.size();
+      for (const auto& [key, values] : {std::pair{"rotor.ripple_torques_Nm", &input.ripple_torques},
+                                        {"rotor.ripple_phases_deg", &input.ripple_phases}})
+        if (usable(key, i) && given(key, i) && values->size() != orders)
+          problem(key, i, fmt::format("has {} values for {} orders (ripple_orders)", values->size(), orders));
     }
   }
 };
@@ -60,6 +69,25 @@ Table rotor_table() {
            "Free rotation of its shaft in the couplings, from one side to the other.")
       .fallback(0.0, "couplings without backlash")
       .from(0, 360);
+  rotor
+      .key("ripple_orders", &RotorInput::ripple_orders,
+           "Torques on it that change with its rotation, beside that of its body: their orders, in cycles per turn.")
+      .together_with("ripple_torques_Nm")
+      .longest(50)
+      .distinct()
+      .above(0, 1e4)
+      .absent("a constant torque");
+  rotor
+      .key("ripple_torques_Nm", &RotorInput::ripple_torques,
+           "Their amplitudes: torque × cos(order × angle + phase), in the sense of the torque of its body.")
+      .longest(50)
+      .from(0, 1e9)
+      .absent("a constant torque");
+  rotor.key("ripple_phases_deg", &RotorInput::ripple_phases, "Their phases at time 0.")
+      .only_if(given("ripple_orders"))
+      .longest(50)
+      .from(-360, 360)
+      .absent("0 for each");
   return rotor.done();
 }
 
@@ -75,6 +103,9 @@ std::vector<dynamics::Rotor> rotors_of(const Scene& scene) {
     rotors[i].shaft_stiffness = input.shaft;
     rotors[i].shaft_damping_ratio = input.shaft_damping_ratio.value_or(scene.dynamics->support_damping_ratio);
     rotors[i].half_backlash = input.shaft_backlash / 2;
+    for (std::size_t k = 0; k < input.ripple_orders.size(); ++k)
+      rotors[i].ripples.push_back({input.ripple_orders[k], input.ripple_torques.at(k),
+                                   input.ripple_phases.empty() ? 0 : input.ripple_phases.at(k)});
   }
   return rotors;
 }

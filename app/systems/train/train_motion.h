@@ -13,18 +13,18 @@ namespace annulus::app {
 
 /// A natural frequency of a train, and where its energy is.
 struct TrainMode {
-  double frequency = 0;       ///< Hz
-  std::string body, element;  ///< with the largest share of the kinetic and of the strain energy
+  double frequency = 0;           ///< Hz
+  std::string body{}, element{};  ///< with the largest share of the kinetic and of the strain energy
   double kinetic = 0, strain = 0;
 };
 
 /// The motion of a train.
 struct TrainMotion {
   dynamics::TrainResponse response;  ///< without its time series
-  FigureSet figures;                 ///< results, with the parts of their errors
-  std::vector<TrainMode> modes;
-  Csv shafts;               ///< torque over nominal torque of every shaft over the first cycles of the window
-  std::string time_series;  ///< the file of all motions and forces; empty once it is written
+  FigureSet figures{};               ///< results, with the parts of their errors
+  std::vector<TrainMode> modes{};
+  Csv shafts{};               ///< torque over nominal torque of every shaft over the first cycles of the window
+  std::string time_series{};  ///< the file of all motions and forces; empty once it is written
 };
 
 /// The answer of a train.

@@ -86,7 +86,8 @@ dynamics::Train train_of(const Scene& scene, const std::vector<WorkingPart>& par
       const auto& rotors = part.scene->rotors;
       const bool occupied =
           std::any_of(rotors.begin(), rotors.end(), [&](const auto& rotor) { return rotor.on == body.name; });
-      made.ends.push_back({body.name, body.radius, occupied ? "a rotor of the part's own scene stands on it" : ""});
+      made.ends.push_back(
+          {body.name, body.radius, occupied ? "a rotor of the part's own scene stands on it" : "", body.speed});
     }
   }
   for (const auto& shaft : input.shafts) {

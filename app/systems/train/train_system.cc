@@ -35,6 +35,13 @@ class TrainSystem final : public GearSystem {
       } catch (const Error& error) {
         throw InputError(fmt::format("part.name: part '{}': {}", part.name, error.what()));
       }
+    if (!scene().dynamics) return;
+    try {
+      rough_train(scene(), parts()).check();
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      throw InputError((message.starts_with("rotor") ? "rotor.on: " : "shaft.name: ") + message);
+    }
   }
 
   [[nodiscard]] std::vector<MeshModel> meshes() const override {

@@ -69,11 +69,25 @@ Table shaft_table() {
   return shaft.done();
 }
 
+/// While the scene of a part is read: a train in it could contain itself.
+class PartBeingRead {
+ public:
+  PartBeingRead() { any() = true; }
+  ~PartBeingRead() { any() = false; }
+  PartBeingRead(const PartBeingRead&) = delete;
+  PartBeingRead& operator=(const PartBeingRead&) = delete;
+  static bool& any() {
+    thread_local bool reading = false;
+    return reading;
+  }
+};
+
 class TrainChecker : KeyChecks {
  public:
   using KeyChecks::KeyChecks;
 
   void run() {
+    if (PartBeingRead::any()) return problem("stage.kind", "cannot be that of a part");
     if (!scene_.dynamics) problems_.push_back({0, 0, "dynamics: the table is missing; a train is a lumped model"});
     auto& input = input_of(scene_);
     for (std::size_t i = 0; i < input.parts.size(); ++i) {
@@ -99,10 +113,14 @@ class TrainChecker : KeyChecks {
 
   void read(TrainInput::Part& part, std::size_t i) {
     try {
-      part.scene = std::make_shared<const Scene>(read_scene(file_below_scene(scene_, part.file)));
+      const auto file = file_below_scene(scene_, part.file);
+      {
+        const PartBeingRead reading;
+        part.scene = std::make_shared<const Scene>(read_scene(file));
+      }
       const auto& read = *part.scene;
       const auto folder = std::filesystem::path(part.file).parent_path();
-      for (const auto& file : input_files(read)) scene_.further_files.push_back((folder / file).string());
+      for (const auto& name : input_files(read)) scene_.further_files.push_back((folder / name).string());
       const auto system = make_system(read);
       if (system->variants().size() != 1)
         problem("part.file", i, fmt::format("has {} rings; a part of a train has one", system->variants().size()));

@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "dynamics/system/input_checks.h"
+#include "dynamics/system/periods.h"
 #include "geometry/iso6336.h"
 
 namespace annulus::dynamics {
@@ -60,7 +61,7 @@ double HelicalPair::wheel_speed() const { return pinion_speed * pinion.teeth / w
 double HelicalPair::wheel_torque() const { return pinion_torque * wheel.radius / pinion.radius; }
 
 std::vector<ShaftEnd> HelicalPair::shaft_ends() const {
-  return {{"pinion", pinion.radius, ""}, {"wheel", wheel.radius, ""}};
+  return {{"pinion", pinion.radius, "", pinion_speed}, {"wheel", wheel.radius, "", wheel_speed()}};
 }
 
 double HelicalPair::mesh_frequency() const { return pinion.teeth * pinion_speed / (2 * std::numbers::pi); }
@@ -81,6 +82,8 @@ int HelicalPair::error_period() const {
   int period = period_in_cycles(mesh);
   if (pinion.error.exists()) period = std::lcm(period, pinion.teeth);
   if (wheel.error.exists()) period = std::lcm(period, wheel.teeth);
+  if (!rotors.empty() && mesh_frequency() > 0)
+    period = common_period(period, ripple_period(rotors, shaft_ends(), mesh_frequency()));
   return period;
 }
 

@@ -93,12 +93,6 @@ double rate_of_sun(const PlanetaryStage& s) {
   return speed == 0 ? 0 : speed * s.ring_teeth / s.sun_teeth;
 }
 
-/// lcm, as far as it stays below `never_repeats`.
-int common_period(int a, int b) {
-  const auto both = std::lcm(static_cast<std::int64_t>(a), static_cast<std::int64_t>(b));
-  return static_cast<int>(std::min<std::int64_t>(both, PlanetaryStage::never_repeats));
-}
-
 /// Mesh cycles in which the housing turns past the carrier a whole number of times.
 int cycles_of_housing(const PlanetaryStage& s) {
   if (s.carrier_speed == 0) return 1;
@@ -191,6 +185,7 @@ int PlanetaryStage::error_period() const {
     if (!ring_coupling->modes.empty()) period = common_period(period, ring_teeth);
   }
   if (rolling_speed(*this) == 0) return period;
+  period = common_period(period, ripple_period(rotors, shaft_ends(), mesh_frequency()));
   const auto eccentric = [](const BodyErrors& e) { return e.eccentricity.exists(); };
   if (std::any_of(planet_errors.begin(), planet_errors.end(), eccentric)) period = common_period(period, planet_teeth);
   for (const auto* errors : {&sun_tooth_errors, &ring_tooth_errors})
@@ -206,10 +201,13 @@ int PlanetaryStage::error_period() const {
 }
 
 std::vector<ShaftEnd> PlanetaryStage::shaft_ends() const {
+  using geometry::StageMember;
   std::vector<ShaftEnd> ends{{"planet", planet.radius, "planets move around the axis"}};
-  for (const auto member : {geometry::StageMember::sun, geometry::StageMember::ring, geometry::StageMember::carrier})
+  for (const auto& [member, speed] : {std::pair{StageMember::sun, sun_teeth > 0 ? sun_speed() : 0.0},
+                                      {StageMember::ring, ring_speed},
+                                      {StageMember::carrier, carrier_speed}})
     ends.push_back(
-        {to_string(member), body(member).radius, body(member).torsional_support == rigid ? "it is held" : ""});
+        {to_string(member), body(member).radius, body(member).torsional_support == rigid ? "it is held" : "", speed});
   return ends;
 }
 

@@ -8,6 +8,7 @@
 #include "core/ring_coupling.h"
 #include "dynamics/system/drive_line.h"
 #include "dynamics/system/mesh_excitation.h"
+#include "dynamics/system/periods.h"
 #include "dynamics/system/support.h"
 #include "dynamics/systems/planetary/stage_space.h"
 #include "geometry/power_flow.h"
@@ -158,7 +159,7 @@ struct PlanetaryStage {
   /// housing turns past the carrier (position errors of central bodies; z_r where the ring is held) and the periods of
   /// tables, tooth errors and coupling. `never_repeats` where the speeds of a differential have no such multiple.
   [[nodiscard]] int error_period() const;
-  static constexpr int never_repeats = 1 << 30;
+  static constexpr int never_repeats = dynamics::never_repeats;
 
   /// Throws InputError with name and value of the quantity when the stage cannot be assembled.
   void check() const;

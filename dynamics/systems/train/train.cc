@@ -6,20 +6,18 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <set>
-#include <utility>
 
 #include "core/errors.h"
+#include "core/whole_ratio.h"
 #include "dynamics/figures/common_figures.h"
 #include "dynamics/system/input_checks.h"
+#include "dynamics/system/periods.h"
 #include "dynamics/system/support.h"
 
 namespace annulus::dynamics {
 
 namespace {
-
-constexpr int never_repeats = 1 << 30;
 
 const TrainPart* find_part(const Train& train, const std::string& name) {
   const auto found =
@@ -101,44 +99,24 @@ void add_shaft(LumpedSystemBuilder& builder, const std::vector<int>& first_dof, 
   builder.add_mesh(std::move(element));
 }
 
-/// The ratio a/b of small whole numbers; nothing where there is none.
-std::optional<std::pair<long, long>> whole_ratio(double value) {
-  constexpr double same = 1e-9;
-  constexpr long largest = 1000000;
-  // Continued fraction.
-  long a0 = 0, a1 = 1, b0 = 1, b1 = 0;
-  double rest = value;
-  for (;;) {
-    const double whole = std::floor(rest + same);
-    if (whole > static_cast<double>(largest)) return std::nullopt;
-    const long w = static_cast<long>(whole), a = w * a1 + a0, b = w * b1 + b0;
-    if (a > largest || b > largest) return std::nullopt;
-    a0 = std::exchange(a1, a);
-    b0 = std::exchange(b1, b);
-    if (std::abs(static_cast<double>(a1) / static_cast<double>(b1) - value) <= same * value) return std::pair{a1, b1};
-    rest = 1 / (rest - whole);
-  }
-}
-
 double fastest_mesh(const Train& train) {
   double frequency = 0;
   for (const auto& part : train.parts) frequency = std::max(frequency, part.lumped.problem.mesh_frequency);
   return frequency;
 }
 
-int common_period(const Train& train) {
+/// Cycles of the fastest mesh.
+int period_of(const Train& train) {
   const double base = fastest_mesh(train);
-  long period = 1;
+  int period = ripple_period(train.rotors, train.shaft_ends(), base);
   for (const auto& part : train.parts) {
     const auto& problem = part.lumped.problem;
     if (problem.period_in_cycles >= never_repeats) return never_repeats;
     const auto ratio = whole_ratio(problem.period_in_cycles * base / problem.mesh_frequency);
-    if (!ratio) return never_repeats;
-    constexpr long most = 1000000;
-    period = std::lcm(period, ratio->first);
-    if (period > most) return never_repeats;
+    period = ratio ? common_period(period, static_cast<int>(ratio->first)) : never_repeats;
   }
-  return static_cast<int>(period);
+  constexpr int most = 1000000;
+  return period > most ? never_repeats : period;
 }
 
 }  // namespace
@@ -203,7 +181,7 @@ SteadyProblem steady_problem(const Train& train) {
     force = std::min(force, problem.force_scale);
     deflection = std::min(deflection, problem.force_scale / problem.stiffness);
   }
-  return {fastest_mesh(train), common_period(train), force, force / deflection};
+  return {fastest_mesh(train), period_of(train), force, force / deflection};
 }
 
 LumpedCase lumped_case(const Train& train) { return {assemble(train), steady_problem(train)}; }

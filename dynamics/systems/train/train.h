@@ -56,8 +56,8 @@ struct Train {
 /// of the shafts by their names behind them, then those of the rotors (with_rotors). Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const Train& train);
 
-/// Mesh cycles of the fastest mesh after which all parts repeat; PlanetaryStage::never_repeats where their frequencies
-/// have no common multiple below 1e6 cycles. Frequencies agree with a ratio of whole numbers to 1e-9.
+/// Mesh cycles of the fastest mesh after which all parts and torques of rotors repeat; never_repeats where their
+/// frequencies have no common multiple below 1e6 cycles. Frequencies agree with a ratio of whole numbers to 1e-9.
 [[nodiscard]] SteadyProblem steady_problem(const Train& train);
 [[nodiscard]] LumpedCase lumped_case(const Train& train);
 

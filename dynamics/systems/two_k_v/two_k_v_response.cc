@@ -11,6 +11,7 @@
 #include "dynamics/figures/peaks.h"
 #include "dynamics/statics/static_solver.h"
 #include "dynamics/steady_state/shooting.h"
+#include "dynamics/system/periods.h"
 #include "dynamics/time_integration/integrator_choice.h"
 
 namespace annulus::dynamics {
@@ -113,7 +114,9 @@ int period_in_crank_turns(const TwoKVStage& stage) {
     const int period = period_in_cycles(excitation);
     return period / std::gcd(period, cycles_per_turn);
   };
-  return std::lcm(turns(stage.sun_mesh, stage.planet_teeth), turns(stage.arc_mesh, stage.arc_teeth));
+  const int period = std::lcm(turns(stage.sun_mesh, stage.planet_teeth), turns(stage.arc_mesh, stage.arc_teeth));
+  if (stage.rotors.empty() || stage.output_speed == 0) return period;
+  return common_period(period, ripple_period(stage.rotors, stage.shaft_ends(), stage.crank_frequency()));
 }
 
 LumpedCase lumped_case(const TwoKVStage& stage) {

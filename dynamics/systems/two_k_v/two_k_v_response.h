@@ -45,7 +45,8 @@ struct TwoKVResponse : SteadyOutcome {
   TimeSeries series;  ///< empty without `keep_series`
 };
 
-/// Turns of the crank against the carrier after which everything repeats: one, unless a table spans several cycles. One
+/// Turns of the crank against the carrier after which everything repeats: one, unless a table spans several cycles or
+/// torques of rotors have other periods. One
 /// turn moves every sun mesh on by z_p whole cycles and every arc mesh by z_a, and restores the bearing directions.
 [[nodiscard]] int period_in_crank_turns(const TwoKVStage& stage);
 
