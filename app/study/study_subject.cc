@@ -3,19 +3,40 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "app/model/run_options.h"
 #include "app/model/system_run.h"
 #include "core/errors.h"
 #include "core/log.h"
+#include "dynamics/figures/shaft_results.h"
 
 namespace annulus::app {
+
+namespace {
+
+/// The results of a scene's lumped model: without those of shafts where it has none. They outlive all studies.
+const std::vector<FigureSpec>& figures_of(const Scene& scene) {
+  const auto& kind = system_kind(scene.stage.kind);
+  const auto& all = kind.model_figures();
+  if (!scene.rotors.empty() || !kind.scene.gears) return all;
+  static std::mutex lock;
+  static std::map<std::string, std::vector<FigureSpec>> kept;
+  const std::lock_guard guard(lock);
+  auto& list = kept[scene.stage.kind];
+  if (list.empty())
+    std::copy_if(all.begin(), all.end(), std::back_inserter(list),
+                 [](const FigureSpec& spec) { return spec.key != dynamics::shaft_key; });
+  return list;
+}
+
+}  // namespace
 
 StudySubject::StudySubject(const SystemRun& nominal, const RunOptions& options)
     : nominal_(nominal),
       options_(options),
       variants_(make_system(nominal.scene)->variants()),
-      figures_(system_kind(nominal.scene.stage.kind).model_figures()),
+      figures_(figures_of(nominal.scene)),
       tables_(nominal.tables) {}
 
 const Scene& StudySubject::scene() const { return nominal_.scene; }
