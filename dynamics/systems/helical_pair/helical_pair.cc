@@ -61,7 +61,8 @@ double HelicalPair::wheel_speed() const { return pinion_speed * pinion.teeth / w
 double HelicalPair::wheel_torque() const { return pinion_torque * wheel.radius / pinion.radius; }
 
 std::vector<ShaftEnd> HelicalPair::shaft_ends() const {
-  return {{"pinion", pinion.radius, "", pinion_speed}, {"wheel", wheel.radius, "", wheel_speed()}};
+  return {{"pinion", pinion.radius, "", pinion_speed},
+          {"wheel", wheel.radius, "", wheel.teeth > 0 ? wheel_speed() : 0}};
 }
 
 double HelicalPair::mesh_frequency() const { return pinion.teeth * pinion_speed / (2 * std::numbers::pi); }

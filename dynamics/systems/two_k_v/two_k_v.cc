@@ -79,8 +79,9 @@ void TwoKVStage::check() const {
 
 std::vector<ShaftEnd> TwoKVStage::shaft_ends() const {
   const auto refusal = [](double support) { return support == rigid ? "it is held" : ""; };
-  std::vector<ShaftEnd> ends{{"input", sun_base_radius(), refusal(input_support), output_speed * ratio()},
-                             {"output", crank_circle_radius(), refusal(output_support), output_speed}};
+  std::vector<ShaftEnd> ends{
+      {"input", sun_base_radius(), refusal(input_support), sun_teeth > 0 ? output_speed * ratio() : 0},
+      {"output", crank_circle_radius(), refusal(output_support), output_speed}};
   for (const char* inner : {"sun", "planet", "crank", "arc"}) ends.push_back({inner, 0, "it is inside the reducer"});
   return ends;
 }
