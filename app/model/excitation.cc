@@ -1,5 +1,9 @@
 #include "app/model/excitation.h"
 
+#include <algorithm>
+
+#include "app/plan/accuracy_choice.h"
+
 namespace annulus::app {
 
 dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh, double nominal_load,
@@ -40,6 +44,17 @@ dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double 
   if (input.steps_per_cycle) options.integrator.fixed_step = 1 / (mesh_frequency * *input.steps_per_cycle);
   options.mesh_cycles = input.mesh_cycles;
   options.other_motions.starts = input.starts;
+  return options;
+}
+
+dynamics::SimulationOptions accurate_simulation(const Scene& scene, double mesh_frequency) {
+  auto options = given_simulation(*scene.dynamics, mesh_frequency);
+  const auto choice = motion_choice(scene.accuracy);
+  options.samples_per_cycle = choice.samples_per_cycle;
+  options.confirmation = choice.confirmation;
+  options.confirm_beyond = scene.accuracy;
+  options.steady_tolerance = std::max(options.steady_tolerance, choice.steady_tolerance);
+  if (!scene.dynamics->relative_tolerance) options.integrator.relative_tolerance = choice.relative_tolerance;
   return options;
 }
 

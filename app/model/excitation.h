@@ -25,5 +25,7 @@ namespace annulus::app {
 /// What [dynamics] says of the integration, whatever the kind of stage; fixed steps are counted per cycle of this
 /// frequency (Hz).
 [[nodiscard]] dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency);
+/// The same with what the wanted accuracy asks of the motion (motion_choice). Needs [dynamics].
+[[nodiscard]] dynamics::SimulationOptions accurate_simulation(const Scene& scene, double mesh_frequency);
 
 }  // namespace annulus::app

@@ -43,6 +43,13 @@ void KeyChecks::set(const std::string& key, const Value& value, Origin origin, c
   input->note = how;
 }
 
+void KeyChecks::simple_name(const std::string& key, const Entry& entry, const std::string& name) {
+  constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  if (!usable(key, entry)) return;
+  if (name.empty() || name.find_first_not_of(allowed) != std::string::npos)
+    problem(key, entry, "must consist of letters, digits, _ and - alone");
+}
+
 void KeyChecks::wave(const MeshInput& m, const std::string& path, const std::vector<StiffnessShape>& harmonic) {
   if (std::find(harmonic.begin(), harmonic.end(), m.stiffness) != harmonic.end() && m.ripple && *m.ripple >= 1)
     problem(path + ".ripple", "must stay below 1: the stiffness would become negative");

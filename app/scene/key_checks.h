@@ -29,6 +29,9 @@ class KeyChecks {
   void set(const std::string& key, const Value& value, Origin origin, const std::string& how,
            const Entry& entry = std::size_t{0});
 
+  /// A name that others begin with ("motor_u", "first.sun") consists of letters, digits, _ and - alone.
+  void simple_name(const std::string& key, const Entry& entry, const std::string& name);
+
   /// A prescribed stiffness stays positive; `harmonic`: the shapes with a cosine wave.
   void wave(const MeshInput& m, const std::string& path,
             const std::vector<StiffnessShape>& harmonic = {StiffnessShape::harmonic});

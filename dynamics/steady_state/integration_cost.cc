@@ -158,9 +158,9 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   const int window = length.cycles;
   if (options.mesh_cycles) {
     const auto given = static_cast<double>(*options.mesh_cycles);
-    return {given + looser * window, given, 0};
+    return {given + looser * window, given, 0, 0, options.samples_per_cycle};
   }
-  if (!length.whole) return {(2 + looser) * window, unsteady_comparison, 0};
+  if (!length.whole) return {(2 + looser) * window, unsteady_comparison, 0, 0, options.samples_per_cycle};
   SteadyCourse result;
   result.searched_cycles = searched_cycles(system, mesh_frequency, period, options);
   const int most = std::max(options.samples_per_cycle, most_samples_per_cycle(period));
@@ -171,8 +171,10 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   const double needed = std::min(4 * highest / mesh_frequency, 1e9);
   const double wanted = course == StiffnessCourse::sudden ? std::max<double>(needed, samples_for_contacts) : needed;
   while (2 * samples <= most && samples < wanted) samples *= 2;
+  result.samples = samples;
   constexpr double any = 5e-4, per_sample = 2e-6;  // s; of a mesh
-  result.balance_s = any + per_sample * static_cast<double>(system.meshes().size()) * period * samples;
+  const bool moving = system.has_moving_vectors();
+  if (!moving) result.balance_s = any + per_sample * static_cast<double>(system.meshes().size()) * period * samples;
   const auto integrate = [&](double windows, double compared) {
     result.cycles = (windows + looser) * window;
     result.compared_cycles = compared * window;
@@ -191,7 +193,7 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   const bool unresolved = confirmed && too_few;
   if (jumps && too_fast_for_piecewise(system, seconds, window))
     integrate(until_two_agree + 1, 0);
-  else if (unresolved || options.steady_state == SteadyState::time_integration)
+  else if (unresolved || moving || options.steady_state == SteadyState::time_integration)
     integrate(until_two_agree, few_windows);
   else if (confirmed)
     integrate(1, 0);

@@ -26,10 +26,11 @@ struct SteadyCourse {
   double searched_cycles = 0;  ///< the same for other motions, where backlash is within reach
   double compared_cycles = 0;  ///< the same for each comparison with changed tables (comparison_options)
   double balance_s = 0;        ///< s, of each harmonic balance, which is the comparison where no cycles are
+  int samples = 0;             ///< per mesh cycle, of the periodic motion
 };
 /// Rough prediction for a motion that repeats after `period` mesh cycles. A harmonic balance is confirmed by one window
-/// where its samples suffice, which long periods do not allow: then windows are integrated until two agree. Nearly
-/// undamped motions take more, up to `max_windows`.
+/// where its samples suffice, which long periods do not allow: then windows are integrated until two agree, as they are
+/// for mesh vectors that move. Nearly undamped motions take more, up to `max_windows`.
 [[nodiscard]] SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, int period,
                                          const SimulationOptions& options,
                                          StiffnessCourse course = StiffnessCourse::smooth);

@@ -20,6 +20,7 @@ namespace annulus::dynamics {
 namespace {
 
 std::string dof_of(const std::string& body) { return body + "_u"; }
+std::string element_of(const std::string& rotor) { return rotor + "_shaft"; }
 
 /// nullptr: there is none.
 template <class Named>
@@ -80,16 +81,22 @@ void check_rotors(const std::vector<Rotor>& rotors, const std::vector<ShaftEnd>&
     check_positive(rotor.shaft_stiffness, of("shaft stiffness"));
     check_not_negative(rotor.shaft_damping_ratio, of("shaft damping ratio"));
     check_not_negative(rotor.half_backlash, of("half backlash"));
-    const double speed = end_of(rotor, rotors, ends).speed;
     for (const auto& ripple : rotor.ripples) {
       check_positive(ripple.order, of("order of a torque"));
       if (!std::isfinite(ripple.amplitude) || !std::isfinite(ripple.phase))
         throw InputError(fmt::format("rotor '{}': a torque of {} N m with phase {} rad must be finite", rotor.name,
                                      ripple.amplitude, ripple.phase));
-      if (speed == 0)
-        throw InputError(
-            fmt::format("rotor '{}': a torque of order {} needs a rotor that turns", rotor.name, ripple.order));
     }
+  }
+}
+
+void check_ripples(const std::vector<Rotor>& rotors, const std::vector<ShaftEnd>& ends) {
+  for (const auto& rotor : rotors) {
+    if (rotor.ripples.empty()) continue;
+    const auto& end = end_of(rotor, rotors, ends);
+    if (end.speed == 0)
+      throw InputError(fmt::format("rotor '{}': a torque of order {} needs a rotor that turns, and '{}' does not",
+                                   rotor.name, rotor.ripples.front().order, end.name));
   }
 }
 
@@ -98,6 +105,7 @@ int ripple_period(const std::vector<Rotor>& rotors, const std::vector<ShaftEnd>&
   for (const auto& rotor : rotors)
     for (const auto& ripple : rotor.ripples) {
       const double own = ripple.order * std::abs(end_of(rotor, rotors, ends).speed) / (2 * std::numbers::pi);
+      if (own == 0) continue;
       const auto ratio = whole_ratio(frequency / own);
       period = ratio ? common_period(period, static_cast<int>(ratio->first)) : never_repeats;
     }
@@ -133,6 +141,11 @@ LumpedSystem with_rotors(const LumpedSystem& system, const std::vector<Rotor>& r
                          const std::vector<ShaftEnd>& ends) {
   if (rotors.empty()) return system;
   check_rotors(rotors, ends);
+  for (const auto& rotor : rotors)
+    if (system.find(dof_of(rotor.name)) >= 0 || find_named(system.meshes(), element_of(rotor.name)))
+      throw InputError(
+          fmt::format("rotor '{}': '{}' or '{}' is another part of the system already; give it another name",
+                      rotor.name, dof_of(rotor.name), element_of(rotor.name)));
   LumpedSystemBuilder builder;
   builder.add(system);
   for (const auto& end : ends) {
@@ -150,12 +163,13 @@ LumpedSystem with_rotors(const LumpedSystem& system, const std::vector<Rotor>& r
       builder.add_mass(u, mass);
       const double sense = load < 0 ? -1 : 1;
       for (const auto& ripple : rotor.ripples) {
+        if (end.speed == 0) break;
         const double force = sense * ripple.amplitude / end.radius;
         builder.add_harmonic_load(u, ripple.order * std::abs(end.speed), force * std::cos(ripple.phase),
                                   -force * std::sin(ripple.phase));
       }
       MeshElement shaft;
-      shaft.name = rotor.name + "_shaft";
+      shaft.name = element_of(rotor.name);
       shaft.shaft = true;
       shaft.b = sense * u + (-sense) * before;
       shaft.excitation = ConstantStiffness{stiffness};

@@ -36,15 +36,17 @@ struct ShaftEnd {
 
 /// The system with rotors, whose shafts lead to its bodies one behind the other. DOFs <rotor>_u = radius of the body x
 /// rotation, behind those of the system; elements <rotor>_shaft behind its meshes, N along u, positive where they pass
-/// on the torque of the body. That torque, the constant load of its DOF, acts on the last rotor instead. Without rotors
-/// the system itself.
+/// on the torque of the body. That torque, the constant load of its DOF, acts on the last rotor instead. Ripples of
+/// rotors that do not turn are left out. Without rotors the system itself.
 ///
-/// Throws what check_rotors throws.
+/// Throws what check_rotors throws, and InputError for names that DOFs or elements of the system have already.
 [[nodiscard]] LumpedSystem with_rotors(const LumpedSystem& system, const std::vector<Rotor>& rotors,
                                        const std::vector<ShaftEnd>& ends);
 /// Throws InputError for the first rotor that is not usable (rotor_fault), and for inertias and stiffnesses that are
 /// not positive.
 void check_rotors(const std::vector<Rotor>& rotors, const std::vector<ShaftEnd>& ends);
+/// Throws InputError for a ripple of a rotor that does not turn: a response in time needs its period.
+void check_ripples(const std::vector<Rotor>& rotors, const std::vector<ShaftEnd>& ends);
 /// What is wrong with the name of a rotor and with where its shaft leads to; empty: nothing. Names must be unlike those
 /// of bodies and of other rotors; a shaft has to lead to a body or a rotor to which no other one leads.
 struct RotorFault {
@@ -53,7 +55,8 @@ struct RotorFault {
 [[nodiscard]] RotorFault rotor_fault(const std::vector<Rotor>& rotors, std::size_t rotor,
                                      const std::vector<ShaftEnd>& ends);
 
-/// Cycles of a frequency (Hz) after which all ripples repeat; never_repeats where there is no such number.
+/// Cycles of a frequency (Hz) after which all ripples of rotors that turn repeat; never_repeats where there is no such
+/// number.
 [[nodiscard]] int ripple_period(const std::vector<Rotor>& rotors, const std::vector<ShaftEnd>& ends, double frequency);
 
 /// The rotors of a body, the nearest first, by their places in `rotors`.

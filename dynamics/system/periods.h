@@ -15,4 +15,9 @@ inline constexpr int never_repeats = 1 << 30;
   return static_cast<int>(std::min<std::int64_t>(both, never_repeats));
 }
 
+/// A number of periods, as far as it stays below never_repeats.
+[[nodiscard]] inline int times_period(int number, int period) {
+  return static_cast<int>(std::min(static_cast<std::int64_t>(number) * period, std::int64_t{never_repeats}));
+}
+
 }  // namespace annulus::dynamics

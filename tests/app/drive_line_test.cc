@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "app/scene/scene.h"
@@ -162,6 +163,43 @@ BOOST_AUTO_TEST_CASE(rotors_that_are_refused) {
   BOOST_TEST(refused("inertia_kg_m2 = 0.4", "inertia_kg_m2 = 0.4\nripple_orders = [1, 2]").find("ripple_torques_Nm") !=
              std::string::npos);
   BOOST_TEST(refused("inertia_kg_m2 = 0.4", "inertia_kg_m2 = 0").find("rotor.inertia_kg_m2") != std::string::npos);
+  BOOST_TEST(refused("name = \"flywheel\"", "name = \"fly wheel\"").find("letters, digits") != std::string::npos);
+}
+
+// 54 cycles per turn of the carrier: three of the ring mesh.
+BOOST_AUTO_TEST_CASE(a_stage_in_gusts) {
+  const test::TemporaryFolder folder("gusts");
+  const auto scene = test::replaced(steady_stage(), "planet_eccentricity_um = [15, 36, 17, 38, 19]",
+                                    "planet_eccentricity_um = [0, 0, 0, 0, 0]") +
+                     R"([[rotor]]
+name = "blades"
+on = "carrier"
+inertia_kg_m2 = 20
+shaft_Nm_per_rad = 9e7
+ripple_orders = [54]
+ripple_torques_Nm = [5000]
+)";
+  write_file(folder.path() / "scene.toml", scene);
+  const auto outcome = test::run_program(folder.path(), "run scene.toml --out out --quiet");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  const auto torque_factor = [&] {
+    const auto summary = summary_of(folder);
+    return (*summary["rings"].begin())["shafts"][0]["torque_factor"]["value"].get<double>();
+  };
+  const double in_gusts = torque_factor();
+  write_file(folder.path() / "scene.toml",
+             test::replaced(scene, "ripple_torques_Nm = [5000]", "ripple_torques_Nm = [0]"));
+  BOOST_TEST_REQUIRE(test::run_program(folder.path(), "run scene.toml --out out --quiet").status == 0);
+  BOOST_TEST(torque_factor() < 1 + 0.2 * (in_gusts - 1));
+  // A ring on a torsional support does not turn.
+  const auto brake = test::replaced(test::replaced(scene, "on = \"carrier\"", "on = \"ring\""), "[supports]\n",
+                                    "[supports]\nring_torsional_N_per_m = 1e9\n");
+  write_file(folder.path() / "brake.toml", brake);
+  const auto refused = test::run_program(folder.path(), "check brake.toml");
+  BOOST_TEST(refused.status != 0);
+  BOOST_TEST(refused.err.find("brake.toml:") != std::string::npos, refused.err);
+  BOOST_TEST(refused.err.find("rotor.ripple_orders") != std::string::npos, refused.err);
+  BOOST_TEST(refused.err.find("needs a rotor that turns") != std::string::npos, refused.err);
 }
 
 BOOST_AUTO_TEST_CASE(a_train) {
@@ -182,12 +220,19 @@ BOOST_AUTO_TEST_CASE(a_train) {
   BOOST_TEST(std::abs(summary["shafts"][1]["mean_torque_N_m"].get<double>() / 200 - 1) < 1e-3);
   // 6 cycles of the first mesh and 5 of the second one.
   BOOST_TEST(summary["dynamics"]["whole_period"] == true);
-  const auto plan = test::run_program(folder.path(), "plan train.toml");
-  BOOST_TEST(plan.out.find("second") != std::string::npos, plan.out);
+  const auto plan = test::run_program(folder.path(), "plan train.toml --inputs");
+  BOOST_TEST(plan.out.find("second: pinion.teeth") != std::string::npos, plan.out);
+  // The operating point and the accuracy of the train, not those of the part's own scene.
+  std::map<std::string, Json> inputs;
+  for (const auto& input : summary["inputs"]) inputs[input["key"]] = input["value"];
+  BOOST_TEST(inputs["second: stage.pinion_torque_Nm"].get<double>() == 300, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(inputs["second: accuracy"].get<double>() == inputs["accuracy"].get<double>());
   // A part that has changed: nothing is taken for unchanged.
   write_file(folder.path() / "parts" / "second.toml", pair_scene(26, 35, 500, 333));
   BOOST_TEST_REQUIRE(test::run_program(folder.path(), "run train.toml --out out --quiet").status == 0);
-  BOOST_TEST(std::abs(summary_of(folder)["meshes"][1]["mesh_frequency_Hz"].get<double>() - 26 * 800 / 60.0) < 1e-6);
+  const auto changed = summary_of(folder);
+  BOOST_TEST(std::abs(changed["meshes"][1]["mesh_frequency_Hz"].get<double>() - 26 * 800 / 60.0) < 1e-6);
+  BOOST_TEST(changed["inputs_id"] != summary["inputs_id"]);
 }
 
 // Two cycles per turn of a four-stroke engine of four cylinders; 20 teeth: ten cycles of the mesh.
@@ -241,12 +286,29 @@ BOOST_AUTO_TEST_CASE(trains_that_are_refused) {
   refused("file = \"first.toml\"", "file = \"train.toml\"", "cannot be that of a part");
   refused("name = \"second\"", "name = \"first\"", "used for two parts");
   refused("name = \"second\"", "name = \"a.b\"", "letters");
+  refused("name = \"second\"", "name = \"dynamics\"", "that a run writes itself");
+  refused("name = \"between\"", "name = \"a.b\"", "letters");
+  refused("inertia_kg_m2 = 0.05", "inertia_kg_m2 = 0.05\nripple_orders = [1, 2]\nripple_torques_Nm = [3]",
+          "1 values for 2 orders");
+  refused("on = \"first.pinion\"", "on = \"first.wheel\"", "shaft 'between' leads to it");
+  refused("on = \"first.pinion\"", "on = \"first.sun\"", "one of first.pinion");
   refused("from = \"first.wheel\"", "from = \"first.sun\"", "must be one of first.pinion");
   refused("kind = \"train\"", "kind = \"train\"\nmodule_mm = 3", "stage.module_mm");
   refused("support_damping_ratio = 0.05", "support_damping_ratio = 0.05\nhalf_backlash_um = 3", "half_backlash_um");
   write_train(folder);
   write_file(folder.path() / "first.toml", test::replaced(pair_scene(20, 30, 200, 1200), "module_mm = 4\n", ""));
   BOOST_TEST(refusal_of(folder).find("stage.module_mm") != std::string::npos);
+  write_file(folder.path() / "first.toml",
+             pair_scene(20, 30, 200, 1200) +
+                 "[[rotor]]\nname = \"m\"\non = \"pinion\"\ninertia_kg_m2 = 1\nshaft_Nm_per_rad = 1e5\n");
+  BOOST_TEST(refusal_of(folder).find("give them to the train") != std::string::npos);
+  // A part without a torque.
+  write_train(folder);
+  write_file(folder.path() / "parts" / "second.toml",
+             pair_scene(25, 35, 0, 333) + "[errors]\nmesh_error_um = 1\nmesh_error_phase_deg = 0\n");
+  const auto idle = test::run_program(folder.path(), "check train.toml");
+  BOOST_TEST(idle.status != 0);
+  BOOST_TEST(idle.err.find("must differ from 0") != std::string::npos, idle.err);
   // Both ends of a shaft take up power.
   write_train(folder);
   write_file(folder.path() / "train.toml",

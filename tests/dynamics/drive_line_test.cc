@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "dynamics/steady_state/reach_of_backlash.h"
+#include "dynamics/system/periods.h"
 #include "dynamics/systems/helical_pair/pair_response.h"
 #include "dynamics/systems/planetary/planetary_modes.h"
 #include "dynamics/systems/planetary/response.h"
@@ -83,13 +85,22 @@ struct ByHand {
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass, Eigen::EigenvaluesOnly);
     return solver.eigenvalues().cwiseMax(0).cwiseSqrt() / tau;
   }
-  /// Torque of a shaft under torques that change as exp(i rate t), rad/s: complex amplitudes.
-  [[nodiscard]] std::complex<double> torque(const Shaft& shaft, const Eigen::VectorXcd& load, double rate) const {
+  /// Angles under torques that change as exp(i rate t), rad/s: complex amplitudes.
+  [[nodiscard]] Eigen::VectorXcd angles(const Eigen::VectorXcd& load, double rate) const {
     const std::complex<double> i(0, 1);
     Eigen::MatrixXcd dynamic = (stiffness - rate * rate * mass).cast<std::complex<double>>();
     dynamic += i * rate * damping.cast<std::complex<double>>();
-    const Eigen::VectorXcd angle = dynamic.partialPivLu().solve(load);  // free rotation is no obstacle: rate is not 0
+    return dynamic.partialPivLu().solve(load);  // free rotation is no obstacle: rate is not 0
+  }
+  /// Torque of a shaft under them.
+  [[nodiscard]] std::complex<double> torque(const Shaft& shaft, const Eigen::VectorXcd& load, double rate) const {
+    const std::complex<double> i(0, 1);
+    const Eigen::VectorXcd angle = angles(load, rate);
     return (shaft.stiffness + i * rate * shaft.damping) * (angle[shaft.from] - angle[shaft.to]);
+  }
+  /// Approach of the flanks under them.
+  [[nodiscard]] std::complex<double> approach(const Eigen::VectorXcd& load, double rate) const {
+    return mesh.cast<std::complex<double>>().dot(angles(load, rate));
   }
   /// Its amplitude under an error of the mesh.
   [[nodiscard]] double torque_amplitude(const Shaft& shaft, double error, double rate) const {
@@ -231,6 +242,64 @@ BOOST_AUTO_TEST_CASE(torques_that_change_with_the_rotation) {
   }
 }
 
+// No torque and no errors: the motor alone excites the pair, whose flanks pull as well.
+BOOST_AUTO_TEST_CASE(a_pair_driven_by_changing_torques_alone) {
+  annulus::test::Verification record("A pair that a changing torque alone excites",
+                                     "complex amplitudes of the five inertias in angles, solved by hand");
+  auto pair = driven_pair();
+  pair.mesh_error = {};
+  pair.pinion_torque = 0;
+  BOOST_CHECK_THROW((void)evaluate_pair(pair, quick()), InputError);
+  pair.rotors[0].ripples = {{3, 900, 0.4}};
+  const ByHand train(pair);
+  const auto response = evaluate_pair(pair, quick());
+  BOOST_TEST(response.steady);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::VectorXcd load = 900 * Eigen::VectorXcd::Unit(5, 0);
+    const auto amplitude = std::abs(train.torque(train.shafts[i == 0 ? 0 : 3 - i], load, 3 * pair.pinion_speed));
+    record.close("largest torque", "N m", response.shafts[i].largest_torque.value, amplitude, 1e-4,
+                 "accuracy of the periodic motion, peaks between samples");
+  }
+  // Neither share of the transmission error has it.
+  const auto shares = transmission_error_shares(pair, quick());
+  BOOST_TEST(shares.all.dynamic > 0);
+  BOOST_TEST(shares.errors_alone.dynamic == 0);
+  BOOST_TEST(shares.stiffness_alone.dynamic == 0);
+}
+
+// The bound of the vibration is that of the motor's torque at the natural frequency where the mesh feels it most. The
+// smallest deflection is that under the torque less what of its swing the motor and the pinion do not take as inertias.
+BOOST_AUTO_TEST_CASE(a_changing_torque_brings_backlash_within_reach) {
+  annulus::test::Verification record("Reach of the backlash under a torque that changes",
+                                     "complex amplitudes at the natural frequencies of five inertias, solved by hand");
+  auto pair = driven_pair();
+  pair.mesh_error = {};
+  pair.half_backlash = 100e-6;
+  const auto reach = [&] {
+    const auto [system, problem] = lumped_case(pair);
+    return reach_of_backlash(system, problem);
+  };
+  BOOST_TEST(reach() < 1e-9);
+  pair.rotors[0].ripples = {{7, 900, 0}};  // smallest at one of 48 positions
+  const ByHand train(pair);
+  const double rate = 7 * pair.pinion_speed;
+  Eigen::VectorXd turning(5);
+  const double ratio = pair.pinion.radius / pair.wheel.radius;
+  turning << 1, 1, -ratio, -ratio, -ratio;
+  const double inertia = turning.dot(train.mass * turning), driving = train.mass(0, 0) + train.mass(1, 1);
+  const double swing = 900 * (1 - driving / inertia) / train.mesh[1];
+  double most = 0;
+  for (const double frequency : train.frequencies()) {
+    const double w = tau * frequency;
+    if (w < rate / 3 || w > rate / 0.3) continue;
+    most = std::max(most, std::abs(train.approach(900 * Eigen::VectorXcd::Unit(5, 0), w)));
+  }
+  BOOST_TEST(most > 0);
+  record.close("bound over the static deflection", "", reach(),
+               most * train.mesh_stiffness / (pair.static_force() - swing), 1e-6,
+               "rounding; the same frequencies from two eigenvalue solvers");
+}
+
 // A coupling with play between a wheel and its machine, by the classical Runge-Kutta method in angles over 600 cycles.
 // 2000 steps to a cycle: the sides of the play change in a step of 1/2000 of it.
 BOOST_AUTO_TEST_CASE(a_coupling_with_backlash) {
@@ -317,6 +386,75 @@ BOOST_AUTO_TEST_CASE(a_planetary_stage_with_rotors) {
   BOOST_TEST(response.shafts[0].torque_factor().value > 1);
 }
 
+// Gusts of 54 cycles per turn of the carrier, in which the ring mesh has 162: three mesh cycles. Constant stiffness.
+BOOST_AUTO_TEST_CASE(a_planetary_stage_in_gusts) {
+  annulus::test::Verification record("A planetary stage under a torque that changes with the carrier's rotation",
+                                     "complex amplitudes of the matrices of its elements");
+  auto stage = stages::ring_paper();
+  for (auto& errors : stage.planet_errors) errors = {};
+  stage.sun_mesh = ConstantStiffness{mean_stiffness(stage.sun_mesh)};
+  stage.ring_mesh = ConstantStiffness{mean_stiffness(stage.ring_mesh)};
+  constexpr double order = 54, share = 0.05, phase = 0.7;
+  const double amplitude = share * stage.carrier_torque();
+  stage.rotors = {{"generator", "sun", 3, 4e6, 0.02}, {"blades", "carrier", 20, 9e7, 0.02}};
+  stage.rotors[1].ripples = {{order, amplitude, phase}};
+  BOOST_TEST(stage.error_period() == 3);
+  const auto system = assemble(stage);
+  const double r = stage.carrier.radius, rate = order * std::abs(stage.carrier_speed);
+  const std::complex<double> i(0, 1);
+  Eigen::MatrixXcd dynamic =
+      (stiffness_with_meshes(system, mean_tangents(system)) + system.rotating_stiffness() - rate * rate * system.mass())
+          .cast<std::complex<double>>();
+  dynamic += i * rate * (system.damping_with_meshes() + system.gyroscopic()).cast<std::complex<double>>();
+  const int carrier = system.find("carrier_u"), blades = system.find("blades_u");
+  const Eigen::VectorXcd motion = dynamic.partialPivLu().solve(
+      Eigen::VectorXcd(std::polar(amplitude / r, phase) * Eigen::VectorXcd::Unit(system.dofs(), blades)));
+  const double k = 9e7, c = 2 * 0.02 * std::sqrt(k / (1 / 20.0 + 1 / (r * r * system.mass()(carrier, carrier))));
+  const double swing = std::abs((k + i * rate * c) * (motion[blades] - motion[carrier]) / r);
+  const auto response = simulate(stage, quick());
+  BOOST_TEST(response.steady);
+  BOOST_TEST(swing > 0.01 * stage.carrier_torque());
+  record.close("largest torque of the blades' shaft", "N m", response.shafts[1].largest_torque.value,
+               stage.carrier_torque() + swing, 1e-4, "accuracy of the periodic motion, peaks between samples");
+  record.close("mean torque of the blades' shaft", "N m", response.shafts[1].mean_torque, stage.carrier_torque(), 1e-5,
+               "accuracy of the periodic motion");
+  // The modes at rest are those of the stage, whatever its torques.
+  auto at_rest = stage;
+  at_rest.carrier_speed = 0;
+  const auto still = elastic(modes(assemble(at_rest))), turning = elastic(modes(assemble(stage)));
+  BOOST_TEST(still.size() == turning.size());
+  BOOST_CHECK_EXCEPTION((void)simulate(at_rest, quick()), InputError, [](const InputError&) { return true; });
+}
+
+BOOST_AUTO_TEST_CASE(a_torque_of_a_rotor_that_does_not_turn) {
+  auto stage = stages::ring_paper();
+  stage.ring.torsional_support = 1e9;
+  stage.rotors = {{"brake", "ring", 20, 9e7, 0.02}};
+  stage.rotors[0].ripples = {{2, 100, 0}};
+  BOOST_CHECK_EXCEPTION((void)simulate(stage, quick()), InputError, [](const InputError& error) {
+    return std::string(error.what()).find("'ring' does not") != std::string::npos;
+  });
+}
+
+// Torques of the motor whose orders have no common period: only a window of the motion is known, the statics of the
+// reducer are not concerned.
+BOOST_AUTO_TEST_CASE(a_reducer_whose_motor_has_no_common_period) {
+  auto stage = stages::reducer();
+  stage.output_support = 0;
+  stage.mesh_damping_ratio = stage.support_damping_ratio = 0.05;
+  auto options = quick();
+  options.mesh_cycles = 3 * stage.planet_teeth;
+  const auto alone = simulate(stage, options);
+  stage.rotors = {{"motor", "input", 2e-5, 400, 0.05}};
+  const double torque = 0.1 * stage.output_torque / stage.ratio();
+  stage.rotors[0].ripples = {{std::numbers::sqrt2, torque, 0}, {std::numbers::pi, torque, 0}};
+  BOOST_TEST(lumped_case(stage).problem.period_in_cycles == never_repeats);
+  const auto response = simulate(stage, options);
+  BOOST_TEST(!response.whole_period);
+  BOOST_TEST(response.quasi_static.series.size() == alone.quasi_static.series.size());
+  BOOST_TEST(response.quasi_static.peak_to_peak.value == alone.quasi_static.peak_to_peak.value);
+}
+
 BOOST_AUTO_TEST_CASE(a_reducer_with_motor_and_machine) {
   annulus::test::Verification record("A 2K-V reducer between motor and machine", "statics: torque and torque / ratio");
   auto stage = stages::reducer();
@@ -358,6 +496,9 @@ BOOST_AUTO_TEST_CASE(rotors_that_are_refused) {
   refused({{"generator", "planet", 1, 1e6}}, "move around");
   refused({{"generator", "sum", 1, 1e6}}, "sun, carrier");
   refused({{"a", "b", 1, 1e6}, {"b", "a", 1, 1e6}}, "no body");
+  BOOST_CHECK_EXCEPTION(
+      (void)with_rotors(assemble(stage), {good}, stage.shaft_ends()), InputError,
+      [](const InputError& error) { return std::string(error.what()).find("'generator_u'") != std::string::npos; });
   refused({{"generator", "sun", 0, 1e6}}, "inertia");
   refused({{"generator", "sun", 1, -1}}, "stiffness");
   refused({{"generator", "sun", 1, 1e6, 0, -1}}, "backlash");

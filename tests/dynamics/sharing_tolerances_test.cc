@@ -202,6 +202,17 @@ BOOST_AUTO_TEST_SUITE_END()
 
 BOOST_AUTO_TEST_SUITE(assembly_draws)
 
+// A generator passes on the torque, and what changes in it has no tolerance.
+BOOST_AUTO_TEST_CASE(a_drive_line_changes_nothing) {
+  auto stage = floating_sun(4);
+  const StageTolerances tolerances{50e-6, 20e-6, 30e-6, 40e-6};
+  const auto alone = assembly_sharing(stage, tolerances, {.assemblies = 10});
+  stage.rotors = {{"generator", "sun", 3, 4e6, 0.02}};
+  stage.rotors[0].ripples = {{std::numbers::sqrt2, 0.2 * stage.sun_torque, 0}};
+  const auto driven = assembly_sharing(stage, tolerances, {.assemblies = 10});
+  BOOST_TEST(driven.factors.front() == alone.factors.front(), boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_CASE(draws_stay_in_their_zones_and_depend_on_nothing_else) {
   const auto nominal = stages::ring_paper();
   for (const auto within : {WithinZone::normal, WithinZone::uniform})

@@ -9,6 +9,7 @@
 #include <complex>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/errors.h"
@@ -319,6 +320,15 @@ BOOST_AUTO_TEST_CASE(trains_that_are_refused) {
   train.shafts.push_back(train.shafts[0]);
   train.shafts[1].name = "again";
   refused(train, "already");
+  // Back to back: nothing but a torque that is locked in loads them.
+  auto back = first;
+  std::swap(back.pinion, back.wheel);
+  back.pinion_speed = first.wheel_speed();
+  back.pinion_torque = first.wheel_torque();
+  train = {{part_of("first", first), part_of("back", back)},
+           {{"between", {"first", "wheel"}, {"back", "pinion"}, shaft_stiffness},
+            {"home", {"back", "wheel"}, {"first", "pinion"}, shaft_stiffness}}};
+  refused(train, "shaft 'home': other shafts connect 'back' with 'first' already");
   train = good;
   train.rotors[0].on = "first.wheel";
   refused(train, "shaft 'between' leads to it");

@@ -73,8 +73,11 @@ class PairChecker : KeyChecks {
     const auto& e = scene_.errors;
     const bool no_error = e.mesh_error.value_or(0) == 0 && e.pinion_error == 0 && e.wheel_error == 0 &&
                           (!scene_.manufacturing_error || scene_.manufacturing_error->reading == "none");
-    if (usable("stage.pinion_torque_Nm") && scene_.stage.pinion_torque == 0 && no_error)
-      problem("stage.pinion_torque_Nm", "must not be 0 without errors: nothing excites the pair");
+    const bool no_ripple = std::all_of(scene_.rotors.begin(), scene_.rotors.end(),
+                                       [](const RotorInput& rotor) { return rotor.ripple_orders.empty(); });
+    if (usable("stage.pinion_torque_Nm") && scene_.stage.pinion_torque == 0 && no_error && no_ripple)
+      problem("stage.pinion_torque_Nm",
+              "must not be 0 without errors and torques of rotors that change: nothing excites the pair");
   }
 
   /// Derived inputs, and checks that need the geometry of the gears.

@@ -107,9 +107,6 @@ SpeedRow speed_row(const LumpedPair& nominal, double speed) {
   const auto simulation = without_confirmation(scene);
   auto pair = nominal.pair;
   pair.pinion_speed = speed;
-  auto constant = pair, flawless = pair;
-  constant.mesh = dynamics::ConstantStiffness{dynamics::mean_stiffness(pair.mesh)};
-  flawless.mesh_error = flawless.pinion.error = flawless.wheel.error = {};
   const auto motion = [&](const dynamics::HelicalPair& p) {
     const auto r = dynamics::evaluate_pair(p, simulation);
     return SpeedRow::Motion{r.acceleration.tooth.value, r.force_max.value - r.force_min.value,
@@ -117,8 +114,8 @@ SpeedRow speed_row(const LumpedPair& nominal, double speed) {
   };
   try {
     row.all = motion(pair);
-    row.errors_alone = motion(constant);
-    row.stiffness_alone = motion(flawless);
+    row.errors_alone = motion(dynamics::with_errors_alone(pair));
+    row.stiffness_alone = motion(dynamics::with_stiffness_alone(pair));
   } catch (const Error& error) {
     row.failure = error.what();
     log::warn(fmt::format("causes at {} r/min: {}", to_text(speed / units::rpm, 6), row.failure));

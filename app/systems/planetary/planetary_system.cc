@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <iterator>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -23,6 +24,8 @@
 #include "app/systems/planetary/statics.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/mesh_names.h"
+#include "app/systems/shared/rotors.h"
+#include "core/errors.h"
 #include "core/file_guard.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 
@@ -52,6 +55,12 @@ class PlanetarySystem final : public GearSystem {
       const auto faults = planetary_faults(scene());
       if (faults.size() < 2) throw;
       throw GeometryError(fmt::format("{}", fmt::join(faults, "\n")));
+    }
+    if (scene().rotors.empty()) return;
+    try {
+      dynamics::check_ripples(rotors_of(scene()), stage_kinematics(scene(), geometry(), 0).shaft_ends());
+    } catch (const InputError& error) {
+      throw InputError(std::string("rotor.ripple_orders: ") + error.what());
     }
   }
 

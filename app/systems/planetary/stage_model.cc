@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "app/model/excitation.h"
-#include "app/plan/accuracy_choice.h"
 #include "app/results/cached_value.h"
 #include "app/systems/planetary/pitch_deviations.h"
 #include "app/systems/planetary/planet_coupling.h"
@@ -108,13 +107,7 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
 }
 
 dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamics::PlanetaryStage& stage) {
-  auto options = given_simulation(*scene.dynamics, stage.mesh_frequency());
-  const auto choice = motion_choice(scene.accuracy);
-  options.samples_per_cycle = choice.samples_per_cycle;
-  options.confirmation = choice.confirmation;
-  options.confirm_beyond = scene.accuracy;
-  options.steady_tolerance = std::max(options.steady_tolerance, choice.steady_tolerance);
-  if (!scene.dynamics->relative_tolerance) options.integrator.relative_tolerance = choice.relative_tolerance;
+  auto options = accurate_simulation(scene, stage.mesh_frequency());
   // A ring on p pins repeats only after z_r / gcd(z_r, p) teeth, and with the planets after hundreds of mesh cycles:
   // the window covers them all up to a time series of some hundred megabytes.
   constexpr int longest_window = 4000;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/model/time_series.h"
 #include "app/results/content_id.h"
 #include "app/systems/planetary/planet_coupling.h"
 #include "app/systems/planetary/rim_coupling.h"
@@ -19,24 +20,6 @@ namespace {
 
 constexpr int waveform_cycles = 6;
 constexpr double highest_order = 8;  // multiples of the mesh frequency kept in the spectrum
-
-Csv time_series_table(const dynamics::TimeSeries& series, int window_cycles) {
-  const int stride = written_stride(window_cycles);
-  Csv csv;
-  csv.columns.emplace_back("time_s");
-  for (const auto& name : series.dofs) csv.columns.push_back(name + "_m");
-  for (const auto& name : series.meshes) csv.columns.push_back(name + "_force_N");
-  csv.rows.reserve(static_cast<std::size_t>(series.time.size() / stride + 1));
-  for (Eigen::Index i = 0; i < series.time.size(); i += stride) {
-    auto& row = csv.rows.emplace_back();
-    row.reserve(csv.columns.size());
-    row.push_back(series.time[i]);
-    row.insert(row.end(), series.displacement.col(i).begin(), series.displacement.col(i).end());
-    row.insert(row.end(), series.force.col(i).begin(), series.force.col(i).end());
-  }
-  csv.round();
-  return csv;
-}
 
 std::vector<std::string> columns(const std::string& first, const std::vector<std::string>& branches,
                                  const std::vector<std::string>& suffixes) {
@@ -163,7 +146,7 @@ StageResponse simulate_stage(const dynamics::PlanetaryStage& stage, const dynami
   tabulate(result, response, stage.planets());
   result.motion = tabulated_motion(stage, response);
   for_each_stage_table(result, [](const char*, Csv& table) { table.round(); });
-  result.time_series = time_series_table(response.series, response.window_cycles).text();
+  result.time_series = time_series_table(response.series, written_stride(response.window_cycles)).text();
   response.series = {};
   result.errors = carried_errors(response, options, tables);
   set_errors(result.errors, response);

@@ -23,12 +23,18 @@ class RotorChecker : KeyChecks {
  public:
   using KeyChecks::KeyChecks;
 
-  void run(const std::vector<dynamics::ShaftEnd>& ends) {
+  void places(const std::vector<dynamics::ShaftEnd>& ends) {
     const auto rotors = named_rotors(scene_);
     for (std::size_t i = 0; i < rotors.size(); ++i) {
+      simple_name("rotor.name", i, rotors[i].name);
       const auto fault = dynamics::rotor_fault(rotors, i, ends);
       if (!fault.name.empty() && usable("rotor.name", i)) problem("rotor.name", i, fault.name);
       if (!fault.on.empty() && usable("rotor.on", i)) problem("rotor.on", i, fault.on);
+    }
+  }
+
+  void ripple_lists() {
+    for (std::size_t i = 0; i < scene_.rotors.size(); ++i) {
       const auto& input = scene_.rotors[i];
       const auto orders = input.ripple_orders.size();
       for (const auto& [key, values] : {std::pair{"rotor.ripple_torques_Nm", &input.ripple_torques},
@@ -92,8 +98,11 @@ Table rotor_table() {
 }
 
 void check_rotors(Scene& scene, std::vector<Problem>& problems, const std::vector<dynamics::ShaftEnd>& ends) {
-  RotorChecker(scene, problems).run(ends);
+  RotorChecker(scene, problems).places(ends);
+  check_ripple_lists(scene, problems);
 }
+
+void check_ripple_lists(Scene& scene, std::vector<Problem>& problems) { RotorChecker(scene, problems).ripple_lists(); }
 
 std::vector<dynamics::Rotor> rotors_of(const Scene& scene) {
   auto rotors = named_rotors(scene);

@@ -7,7 +7,7 @@
 #include "app/model/dynamics_members.h"
 #include "app/model/excitation.h"
 #include "app/model/table_errors.h"
-#include "app/plan/accuracy_choice.h"
+#include "app/model/time_series.h"
 #include "app/results/cached_value.h"
 #include "app/results/content_id.h"
 #include "core/files.h"
@@ -43,14 +43,7 @@ constexpr const char* cached_motions = "responses";
 constexpr const char* train_point_method = "train 1";
 
 dynamics::SimulationOptions train_simulation(const Scene& scene, const dynamics::Train& train) {
-  auto options = given_simulation(*scene.dynamics, dynamics::steady_problem(train).mesh_frequency);
-  const auto choice = motion_choice(scene.accuracy);
-  options.samples_per_cycle = choice.samples_per_cycle;
-  options.confirmation = choice.confirmation;
-  options.confirm_beyond = scene.accuracy;
-  options.steady_tolerance = std::max(options.steady_tolerance, choice.steady_tolerance);
-  if (!scene.dynamics->relative_tolerance) options.integrator.relative_tolerance = choice.relative_tolerance;
-  return options;
+  return accurate_simulation(scene, dynamics::steady_problem(train).mesh_frequency);
 }
 
 /// Identity of everything that the answers depend on: the parts' own lumped models contain their scenes and tables.
@@ -123,20 +116,6 @@ Csv shaft_courses(const dynamics::TrainResponse& response) {
   return csv;
 }
 
-Csv series_table(const dynamics::TimeSeries& series) {
-  Csv csv;
-  csv.columns.emplace_back("time_s");
-  for (const auto& name : series.dofs) csv.columns.push_back(name + "_m");
-  for (const auto& name : series.meshes) csv.columns.push_back(name + "_force_N");
-  for (Eigen::Index i = 0; i < series.time.size(); ++i) {
-    auto& row = csv.rows.emplace_back(1, series.time[i]);
-    row.insert(row.end(), series.displacement.col(i).begin(), series.displacement.col(i).end());
-    row.insert(row.end(), series.force.col(i).begin(), series.force.col(i).end());
-  }
-  csv.round();
-  return csv;
-}
-
 /// The totals of the errors back into what they belong to.
 void set_errors(dynamics::TrainResponse& response, const FigureSet& figures) {
   dynamics::set_errors(response.shafts, figures);
@@ -162,7 +141,7 @@ TrainMotion motion_of(const Scene& scene, const std::vector<WorkingPart>& parts,
   set_errors(response, motion.figures);
   motion.modes = modes_of(train);
   motion.shafts = shaft_courses(response);
-  motion.time_series = series_table(response.series).text();
+  motion.time_series = time_series_table(response.series).text();
   response.series = {};
   return motion;
 }
@@ -197,11 +176,15 @@ std::vector<PlannedResponse> train_responses(const Scene& scene, const std::vect
   const double cycles = course.cycles + runs * course.compared_cycles + course.searched_cycles;
   const double balances = course.balance_s * (1 + (course.compared_cycles > 0 ? 0 : runs));
   const double study_s = course.balance_s + scene.dynamics->mesh_cycles.value_or(0) * per_cycle;
+  // Motions and forces of the window and of those it is compared with, and the time series as text.
+  constexpr double copies = 6.5, bytes_per_MB = 1e6;
+  const double numbers = static_cast<double>(course.samples) * period *
+                         static_cast<double>(2 * system.dofs() + static_cast<int>(system.meshes().size()));
   return {{.label = "dynamics of the train",
            .ring = "",
            .size = {.work = tables > 0 ? Work::response : Work::response_prescribed,
-                    .unknowns = static_cast<double>(system.dofs()) / 3 * period,
-                    .motion_s = balances + cycles * per_cycle},
+                    .motion_s = balances + cycles * per_cycle,
+                    .held_MB = copies * sizeof(double) * numbers / bytes_per_MB},
            .study_s = study_s,
            .sample_s = study_s}};
 }

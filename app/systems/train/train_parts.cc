@@ -10,13 +10,14 @@
 #include "app/scene/overrides.h"
 #include "app/systems/shared/rotors.h"
 #include "core/errors.h"
+#include "core/units.h"
 
 namespace annulus::app {
 
 namespace {
 
-/// The scene with all speeds and torques that it states multiplied.
-Scene at_work(const Scene& own, double speed, double torque) {
+/// The scene with this accuracy, and with all speeds and torques that it states multiplied.
+Scene at_work(const Scene& own, double accuracy, double speed, double torque) {
   std::vector<Override> overrides;
   for (const auto& input : own.inputs) {
     if (input.origin != Origin::scene || !std::holds_alternative<double>(input.value)) continue;
@@ -26,7 +27,13 @@ Scene at_work(const Scene& own, double speed, double torque) {
     if (turns || pushes || works)
       overrides.push_back({input.key, (turns || works ? speed : 1) * (pushes || works ? torque : 1), true});
   }
-  return with_overrides(own, overrides);
+  auto changed = with_overrides(with_accuracy(own, accuracy, "that of the train"), overrides);
+  // A changed scene has no assumptions of its own; here they are still those of the results.
+  for (auto& input : changed.inputs)
+    for (const auto& original : own.inputs)
+      if (original.key == input.key && original.ring == input.ring && original.entry == input.entry)
+        input.assumed = original.assumed;
+  return changed;
 }
 
 const TurningBody& body_of(const std::vector<TurningBody>& bodies, const std::string& name) {
@@ -52,6 +59,13 @@ std::vector<WorkingPart> working_parts(const Scene& scene) {
         if (factors.count(known) == 0 || factors.count(next) > 0) continue;
         const auto &a = body_of(bodies[known], driver), &b = body_of(bodies[next], driven);
         const auto [speed, torque] = factors[known];
+        for (const auto& [end, body] : {std::pair{from, &a}, {to, &b}})
+          if (body->speed == 0 || body->torque == 0)
+            throw InputError(
+                fmt::format("shaft.from: shaft '{}': '{}' turns at {:.7g} r/min with {:.7g} N m in its own "
+                            "scene; both must differ from 0, because speeds and torques of the train follow "
+                            "from them",
+                            shaft.name, end, body->speed / units::rpm, body->torque));
         if (a.speed * a.torque * b.speed * b.torque > 0)
           throw InputError(
               fmt::format("shaft.from: shaft '{}': '{}' and '{}' both {} power; let one of the parts turn "
@@ -66,11 +80,28 @@ std::vector<WorkingPart> working_parts(const Scene& scene) {
       throw InputError(
           fmt::format("part.name: no shaft connects part '{}' with '{}'", part.name, input.parts.front().name));
     const auto [speed, torque] = factors[part.name];
-    auto own = std::make_unique<const Scene>(at_work(*part.scene, speed, torque));
-    auto system = make_system(*own);
-    parts.push_back({part.name, std::move(own), std::move(system), speed, torque});
+    try {
+      auto own = std::make_unique<const Scene>(at_work(*part.scene, scene.accuracy, speed, torque));
+      auto system = make_system(*own);
+      parts.push_back({part.name, std::move(own), std::move(system)});
+    } catch (const Error& error) {
+      throw InputError(
+          fmt::format("part.name: part '{}', with {:.7g} times the speed and {:.7g} times the torque of its "
+                      "scene: {}",
+                      part.name, speed, torque, error.what()));
+    }
   }
   return parts;
+}
+
+std::vector<dynamics::ShaftEnd> shaft_ends(const GearSystem& system) {
+  std::vector<dynamics::ShaftEnd> ends;
+  for (const auto& body : system.turning_bodies()) ends.push_back({body.name, body.radius, "", body.speed});
+  return ends;
+}
+
+std::string fault_of_part(const std::string& part, const std::exception& error) {
+  return fmt::format("part.name: part '{}': {}", part, error.what());
 }
 
 namespace {
@@ -81,13 +112,10 @@ dynamics::Train train_of(const Scene& scene, const std::vector<WorkingPart>& par
   dynamics::Train train;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto& part = parts[i];
-    auto& made = train.parts.emplace_back(dynamics::TrainPart{part.name, lumped(i)});
-    for (const auto& body : part.system->turning_bodies()) {
-      const auto& rotors = part.scene->rotors;
-      const bool occupied =
-          std::any_of(rotors.begin(), rotors.end(), [&](const auto& rotor) { return rotor.on == body.name; });
-      made.ends.push_back(
-          {body.name, body.radius, occupied ? "a rotor of the part's own scene stands on it" : "", body.speed});
+    try {
+      train.parts.push_back({part.name, lumped(i), shaft_ends(*part.system)});
+    } catch (const InputError& error) {
+      throw InputError(fault_of_part(part.name, error));
     }
   }
   for (const auto& shaft : input.shafts) {

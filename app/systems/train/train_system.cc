@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 
-#include "app/model/excitation.h"
 #include "app/plan/plan.h"
-#include "app/scene/example_scenes.h"
 #include "app/systems/train/train_motion.h"
 #include "core/errors.h"
 #include "core/not_known.h"
@@ -33,11 +32,11 @@ class TrainSystem final : public GearSystem {
     for (const auto& part : parts()) try {
         part.system->check();
       } catch (const Error& error) {
-        throw InputError(fmt::format("part.name: part '{}': {}", part.name, error.what()));
+        throw InputError(fault_of_part(part.name, error));
       }
-    if (!scene().dynamics) return;
+    const auto train = rough_train(scene(), parts());
     try {
-      rough_train(scene(), parts()).check();
+      (void)dynamics::lumped_case(train);
     } catch (const InputError& error) {
       const std::string message = error.what();
       throw InputError((message.starts_with("rotor") ? "rotor.on: " : "shaft.name: ") + message);
@@ -77,7 +76,10 @@ class TrainSystem final : public GearSystem {
 
   [[nodiscard]] std::vector<PlannedResponse> responses() const override { return train_responses(scene(), parts()); }
 
-  [[nodiscard]] bool offers(SweepDirection /*direction*/) const override { return true; }
+  [[nodiscard]] bool offers(SweepDirection direction) const override {
+    return std::all_of(parts().begin(), parts().end(),
+                       [&](const auto& part) { return part.system->offers(direction); });
+  }
 
   [[nodiscard]] FigureSet table_figures(const std::vector<const MeshResult*>& /*tables*/) const override { return {}; }
 
@@ -85,6 +87,8 @@ class TrainSystem final : public GearSystem {
     std::vector<Warning> list;
     for (const auto& part : parts())
       for (auto& warning : part.system->plan(1).warnings) {
+        // What the train says of all inputs and meshes of its parts.
+        if (warning.key == "assumed_inputs" || warning.key == "accuracy_not_expected") continue;
         warning.where = part.name + (warning.where.empty() ? "" : ", " + warning.where);
         list.push_back(std::move(warning));
       }
@@ -103,13 +107,18 @@ class TrainSystem final : public GearSystem {
   void describe(Plan& plan) const override {
     plan.inputs = resolved_inputs(scene(), {});
     for (const auto& part : parts()) {
+      auto of_part = part.system->plan(1);
+      for (auto& input : of_part.inputs) {
+        input.key = part.name + ": " + input.key;
+        plan.inputs.push_back(std::move(input));
+      }
       for (const auto& body : part.system->turning_bodies()) {
         const auto name = part.name + "_" + body.name;
         const auto words = fmt::format("{} of part '{}'", body.name, part.name);
         plan.quantities.push_back(quantity(name + "_speed_rpm", std::abs(body.speed), "speed, " + words));
         plan.quantities.push_back(quantity(name + "_torque_Nm", std::abs(body.torque), "torque, " + words));
       }
-      for (auto& dof : part.system->plan(1).dofs) {
+      for (auto& dof : of_part.dofs) {
         dof.name = part.name + ": " + dof.name;
         plan.dofs.push_back(std::move(dof));
       }

@@ -5,11 +5,12 @@
 #include <set>
 
 #include "app/model/gear_system.h"
+#include "app/results/result_folder.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_declare.h"
 #include "app/scene/scene_files.h"
 #include "app/systems/shared/rotors.h"
-#include "app/systems/train/train_scene.h"
+#include "app/systems/train/train_parts.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -41,7 +42,7 @@ Table part_table() {
   part.key("name", &TrainInput::Part::name, "Name in results, and of the folder of its results.").required();
   part.key("file", &TrainInput::Part::file,
            "Scene of the part, with [dynamics] and a single ring; a path relative to this scene, in its folder or "
-           "below. Its studies are left out.")
+           "below. Its studies are left out, and the accuracy is that of the train.")
       .required();
   return part.done();
 }
@@ -91,24 +92,42 @@ class TrainChecker : KeyChecks {
     if (!scene_.dynamics) problems_.push_back({0, 0, "dynamics: the table is missing; a train is a lumped model"});
     auto& input = input_of(scene_);
     for (std::size_t i = 0; i < input.parts.size(); ++i) {
-      name(input, i);
+      name("part.name", "parts", input.parts, i);
+      if (usable("part.name", i) && is_name_of_run(input.parts[i].name))
+        problem("part.name", i, "is the name of a file or folder that a run writes itself; choose another one");
       if (usable("part.file", i)) read(input.parts[i], i);
     }
-    for (std::size_t i = 0; i < input.shafts.size(); ++i) {
-      for (const auto& [key, end] : {std::pair{"shaft.from", &input.shafts[i].from}, {"shaft.to", &input.shafts[i].to}})
-        if (usable(key, i)) place(key, i, *end);
-    }
+    for (std::size_t i = 0; i < input.shafts.size(); ++i) name("shaft.name", "shafts", input.shafts, i);
+    const bool all_read =
+        std::all_of(input.parts.begin(), input.parts.end(), [](const auto& part) { return part.scene != nullptr; });
+    if (all_read)
+      places(input);
+    else
+      check_ripple_lists(scene_, problems_);
   }
 
  private:
-  void name(const TrainInput& input, std::size_t i) {
-    if (!usable("part.name", i)) return;
-    const auto& name = input.parts[i].name;
-    constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-    if (name.empty() || name.find_first_not_of(letters) != std::string::npos)
-      return problem("part.name", i, "may consist of letters, digits, _ and - alone");
+  template <class Named>
+  void name(const char* key, const char* what, const std::vector<Named>& list, std::size_t i) {
+    simple_name(key, i, list[i].name);
     for (std::size_t k = 0; k < i; ++k)
-      if (input.parts[k].name == name) return problem("part.name", i, fmt::format("'{}' is used for two parts", name));
+      if (usable(key, i) && list[k].name == list[i].name)
+        return problem(key, i, fmt::format("'{}' is used for two {}", list[i].name, what));
+  }
+
+  /// Where shafts and rotors lead to.
+  void places(const TrainInput& input) {
+    dynamics::Train train;
+    for (const auto& part : input.parts) train.parts.push_back({part.name, {}, shaft_ends(*make_system(*part.scene))});
+    for (std::size_t i = 0; i < input.shafts.size(); ++i) {
+      const auto& shaft = input.shafts[i];
+      for (const auto& [key, end] : {std::pair{"shaft.from", &shaft.from}, {"shaft.to", &shaft.to}})
+        if (usable(key, i)) place(key, i, *end, train.shaft_ends());
+      const auto [from, from_body] = part_and_body(shaft.from);
+      const auto [to, to_body] = part_and_body(shaft.to);
+      train.shafts.push_back({shaft.name, {from, from_body}, {to, to_body}});
+    }
+    check_rotors(scene_, problems_, train.shaft_ends());
   }
 
   void read(TrainInput::Part& part, std::size_t i) {
@@ -126,6 +145,8 @@ class TrainChecker : KeyChecks {
         problem("part.file", i, fmt::format("has {} rings; a part of a train has one", system->variants().size()));
       else if (!read.dynamics)
         problem("part.file", i, "has no [dynamics]");
+      else if (!read.rotors.empty())
+        problem("part.file", i, "has rotors of its own; give them to the train, on \"part.body\"");
       else if (system->turning_bodies().empty())
         problem("part.file", i, fmt::format("is of the kind {}, which cannot be part of a train", read.stage.kind));
       else
@@ -136,16 +157,18 @@ class TrainChecker : KeyChecks {
     part.scene = nullptr;
   }
 
-  void place(const char* key, std::size_t i, const std::string& end) {
-    const auto [name, body] = part_and_body(end);
-    std::vector<std::string> ends;
-    for (const auto& part : input_of(scene_).parts) {
-      if (!part.scene) return;  // said already
-      for (const auto& turning : make_system(*part.scene)->turning_bodies())
-        ends.push_back(part.name + "." + turning.name);
+  void place(const char* key, std::size_t i, const std::string& end, const std::vector<dynamics::ShaftEnd>& ends) {
+    std::vector<std::string> names;
+    for (const auto& known : ends) {
+      if (known.name != end) {
+        names.push_back(known.name);
+        continue;
+      }
+      if (!known.refusal.empty())
+        problem(key, i, fmt::format("no other shaft can lead to '{}': {}", end, known.refusal));
+      return;
     }
-    if (std::find(ends.begin(), ends.end(), end) == ends.end())
-      problem(key, i, fmt::format("'{}' must be one of {}", end, fmt::join(ends, ", ")));
+    problem(key, i, fmt::format("'{}' must be one of {}", end, fmt::join(names, ", ")));
   }
 };
 

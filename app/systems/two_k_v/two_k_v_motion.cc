@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/model/table_errors.h"
+#include "app/model/time_series.h"
 #include "app/results/content_id.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/files.h"
@@ -66,20 +67,6 @@ void for_each_motion_table(Motion& m, Visit visit) {
   visit("output_error_static.csv", m.static_error);
   visit("spectrum.csv", m.spectrum);
   visit("forces.csv", m.forces);
-}
-
-Csv motion_series(const dynamics::TimeSeries& series) {
-  Csv csv;
-  csv.columns.emplace_back("time_s");
-  for (const auto& name : series.dofs) csv.columns.push_back(name + "_m");
-  for (const auto& name : series.meshes) csv.columns.push_back(name + "_force_N");
-  for (Eigen::Index i = 0; i < series.time.size(); ++i) {
-    auto& row = csv.rows.emplace_back(1, series.time[i]);
-    row.insert(row.end(), series.displacement.col(i).begin(), series.displacement.col(i).end());
-    row.insert(row.end(), series.force.col(i).begin(), series.force.col(i).end());
-  }
-  csv.round();
-  return csv;
 }
 
 TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVResponse& r) {
@@ -191,7 +178,7 @@ TwoKVMotion simulate_two_k_v(const Scene& scene, const TwoKVTables& tables,
         ((*list)[n].*factor).error = motion.results.figure(factor_key(mesh, n, name)).error;
   dynamics::set_errors(motion.shafts, motion.results);
   for_each_motion_table(motion, [](const char*, Csv& table) { table.round(); });
-  motion.time_series = motion_series(response.series).text();
+  motion.time_series = time_series_table(response.series).text();
   return motion;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,7 @@
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "core/units.h"
 #include "dynamics/steady_state/integration_cost.h"
+#include "dynamics/system/periods.h"
 
 namespace annulus::app {
 
@@ -125,21 +127,24 @@ std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
   if (!scene.dynamics) return {};
   const auto stage = rough_two_k_v(scene);
   const auto system = assemble(stage);
-  // Shooting integrates a turn of the crank once per state, then twice more; time integration confirms it by two turns,
-  // of which the last again with a looser tolerance. Changed tables likewise.
-  const double turns = 2.0 * system.dofs() + 2 + 2.6;
+  // Shooting integrates a period once per state, then twice more; time integration confirms it by two periods, of which
+  // the last again with a looser tolerance. Changed tables likewise.
+  const double periods = 2.0 * system.dofs() + 2 + 2.6;
+  const auto options = two_k_v_simulation(scene, stage);
+  const int period = std::min(dynamics::times_period(scene.planet.teeth, dynamics::period_in_crank_turns(stage)),
+                              options.max_window_cycles);
   const auto& asked = scene.dynamics->mesh_cycles;
   const auto planned = [&](const std::string& label, const std::string& variant, int compared) {
     using Course = dynamics::StiffnessCourse;
-    const double once = dynamics::integration_seconds(
-        system, stage.sun_mesh_frequency(), asked ? *asked : turns * scene.planet.teeth,
-        two_k_v_simulation(scene, stage).integrator, compared > 0 ? Course::sudden : Course::smooth);
+    const double once =
+        dynamics::integration_seconds(system, stage.sun_mesh_frequency(), asked ? *asked : periods * period,
+                                      options.integrator, compared > 0 ? Course::sudden : Course::smooth);
     constexpr double other = 0.2;         // vibration over a turn of the crank
     constexpr double of_sample = 1.2e-3;  // stiffness, lost motion and modes at one crank angle
     return PlannedResponse{.label = label,
                            .ring = variant,
                            .size = {.work = compared > 0 ? Work::response_two_k_v : Work::response_two_k_v_prescribed,
-                                    .unknowns = static_cast<double>(scene.planet.teeth),  // one turn of the crank
+                                    .unknowns = static_cast<double>(period),
                                     .motion_s = other + once * (1 + compared)},
                            .study_s = variant.empty() ? once : 0,  // studies vary the scene as it is
                            .sample_s = variant.empty() ? of_sample : 0};

@@ -13,6 +13,7 @@
 #include "dynamics/figures/motion.h"
 #include "dynamics/figures/peaks.h"
 #include "dynamics/statics/static_solver.h"
+#include "dynamics/system/periods.h"
 
 namespace annulus::dynamics {
 
@@ -151,6 +152,21 @@ double error_force(const HelicalPair& pair) {
          force(pair.pinion.error, pair.pinion_speed) + force(pair.wheel.error, pair.wheel_speed());
 }
 
+/// N, along the line of action: of the torques of all rotors that change.
+double ripple_force(const HelicalPair& pair) {
+  double force = 0;
+  for (const auto& rotor : pair.rotors)
+    for (const auto& ripple : rotor.ripples)
+      force += std::abs(ripple.amplitude) / end_of(rotor, pair.rotors, pair.shaft_ends()).radius;
+  return force / std::cos(pair.base_helix_angle);
+}
+
+/// N, by which the forces of the mesh are measured; 0: nothing excites the pair.
+double force_scale(const HelicalPair& pair) {
+  const double force = std::max(std::abs(pair.static_force()), error_force(pair));
+  return force > 0 ? force : ripple_force(pair);
+}
+
 SteadyResponse pair_steady_state(const LumpedCase& lumped, const SimulationOptions& options) {
   const auto& [system, problem] = lumped;
   if (options.confirmation == Confirmation::always) return steady_response(system, problem, options);
@@ -158,12 +174,12 @@ SteadyResponse pair_steady_state(const LumpedCase& lumped, const SimulationOptio
   quick.other_motions.starts = 0;
   if (problem.period_in_cycles > long_window)
     quick.samples_per_cycle = std::min(quick.samples_per_cycle, enough_samples(problem.period_in_cycles));
-  quick.min_window_cycles = std::min(options.min_window_cycles, 2 * problem.period_in_cycles);
+  quick.min_window_cycles = std::min(options.min_window_cycles, times_period(2, problem.period_in_cycles));
   quick.confirmation = Confirmation::never;
   auto found = steady_response(system, problem, quick);
   const bool unsure = found.total_cycles == 0 && may_miss(system, *found.periodic, options.confirm_beyond);
   const bool confirmed_where_needed = options.confirmation == Confirmation::where_needed && !options.mesh_cycles;
-  if (!confirmed_where_needed || (found.best.open[0] == 0 && !unsure)) {
+  if (!confirmed_where_needed || (found.best.open.maxCoeff() == 0 && !unsure)) {
     look_for_other_motions(system, problem, options, found);
     return found;
   }
@@ -179,12 +195,11 @@ LumpedCase lumped_case(const HelicalPair& pair) {
   if (!(pair.pinion_speed > 0))
     throw InputError(
         fmt::format("a time response of a pair needs a speed above zero, not {} rad/s", pair.pinion_speed));
-  if (pair.pinion_torque == 0 && error_force(pair) == 0)
+  const double scale = force_scale(pair);
+  if (scale == 0)
     throw InputError(
-        "a time response of a pair needs a torque or errors: torque 0 N m and errors of 0 m excite nothing");
-  return {std::move(system),
-          {pair.mesh_frequency(), pair.error_period(), std::max(std::abs(pair.static_force()), error_force(pair)),
-           mean_stiffness(pair.mesh)}};
+        "a time response of a pair needs a torque or errors: torques of 0 N m and errors of 0 m excite nothing");
+  return {std::move(system), {pair.mesh_frequency(), pair.error_period(), scale, mean_stiffness(pair.mesh)}};
 }
 
 PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& options) {
@@ -221,24 +236,33 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
   return response;
 }
 
+HelicalPair with_errors_alone(HelicalPair pair) {
+  pair.mesh = ConstantStiffness{mean_stiffness(pair.mesh)};
+  for (auto& rotor : pair.rotors) rotor.ripples.clear();
+  return pair;
+}
+
+HelicalPair with_stiffness_alone(HelicalPair pair) {
+  pair.mesh_error = pair.pinion.error = pair.wheel.error = {};
+  for (auto& rotor : pair.rotors) rotor.ripples.clear();
+  return pair;
+}
+
 TransmissionErrorShares transmission_error_shares(const HelicalPair& pair, const SimulationOptions& given) {
   auto options = given;
   options.keep_series = false;
   const auto ranges = [&](const HelicalPair& p) {
     // Neither cause nor load: nothing moves.
-    if (p.pinion_torque == 0 && error_force(p) == 0) return PeakToPeak{};
+    if (force_scale(p) == 0) return PeakToPeak{};
     const auto r = evaluate_pair(p, options);
     return PeakToPeak{r.dynamic.transmission_error.peak_to_peak.value,
                       r.quasi_static.transmission_error.peak_to_peak.value};
   };
   const auto whole = evaluate_pair(pair, options);
-  auto constant = pair, flawless = pair;
-  constant.mesh = ConstantStiffness{mean_stiffness(pair.mesh)};
-  flawless.mesh_error = flawless.pinion.error = flawless.wheel.error = {};
   return {
       {whole.dynamic.transmission_error.peak_to_peak.value, whole.quasi_static.transmission_error.peak_to_peak.value},
-      ranges(constant),
-      ranges(flawless),
+      ranges(with_errors_alone(pair)),
+      ranges(with_stiffness_alone(pair)),
       whole.quasi_static.transmission_error.mean};
 }
 

@@ -59,11 +59,16 @@ struct PairResponse : SteadyOutcome {
 ///
 /// options.confirm = false is meant for grids. While contact is never lost, the harmonic balance is then taken as it
 /// is, over two periods or `min_window_cycles` if less. With loss of contact several motions may exist, and time
-/// integration decides. Throws InputError without speed, or without both torque and errors, and what `steady_response`
+/// integration decides. Throws InputError without speed, or without torques and errors, and what `steady_response`
 /// throws.
 [[nodiscard]] PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& options = {});
-/// The system that it solves. Throws InputError without speed, or without both torque and errors.
+/// The system that it solves. Throws InputError without speed, or without torques and errors.
 [[nodiscard]] LumpedCase lumped_case(const HelicalPair& pair);
+
+/// The pair with a single cause of vibration: its errors at constant mean stiffness, or its stiffness without
+/// manufacturing errors (the unloaded error of a table stays); both without ripples of the rotors.
+[[nodiscard]] HelicalPair with_errors_alone(HelicalPair pair);
+[[nodiscard]] HelicalPair with_stiffness_alone(HelicalPair pair);
 
 /// Peak-to-peak transmission error u_1 + u_2, m.
 struct PeakToPeak {
@@ -73,9 +78,8 @@ struct PeakToPeak {
 /// Contributions to the transmission error.
 struct TransmissionErrorShares {
   PeakToPeak all;
-  PeakToPeak errors_alone;     ///< at constant mean stiffness: manufacturing errors alone
-  PeakToPeak stiffness_alone;  ///< without manufacturing errors; the unloaded error of a table stays
-  double load_deflection = 0;  ///< m, mean of the quasi-static u_1 + u_2: deflection under the load
+  PeakToPeak errors_alone, stiffness_alone;  ///< with_errors_alone, with_stiffness_alone
+  double load_deflection = 0;                ///< m, mean of the quasi-static u_1 + u_2: deflection under the load
 
   /// Contribution of the errors: errors alone / all. Both contributions need not add up to 1, because they have phases.
   [[nodiscard]] PeakToPeak error_share() const {

@@ -22,6 +22,7 @@ void check_simulation(const PlanetaryStage& stage) {
   if (!(stage.sun_torque > 0))
     throw InputError(
         fmt::format("a time response needs a positive sun torque (drive flanks loaded), not {} N m", stage.sun_torque));
+  check_ripples(stage.rotors, stage.shaft_ends());
 }
 
 /// Mean over each mesh cycle; columns span whole cycles.

@@ -48,7 +48,9 @@ Deviation drawn(WithinZone within, double radius, std::uint64_t seed, int assemb
 
 constexpr int positions = 16;  ///< per mesh cycle
 
+/// Without a drive-line: its shafts change no force of the meshes, and its ripples are no tolerances.
 PlanetaryStage at_share(PlanetaryStage stage, double share) {
+  stage.rotors.clear();
   stage.sun_torque *= share;
   return stage;
 }
@@ -182,11 +184,12 @@ ErrorPeriodSharing sharing_of(const std::vector<PerfectStage>& perfect, const Pl
   ErrorPeriodSharing result;
   const Eigen::Index planets = stage.planets();
   for (std::size_t s = 0; s < torque_shares.size(); ++s) {
-    const auto system = assemble(at_share(stage, torque_shares[s]));
+    const auto at_torque = at_share(stage, torque_shares[s]);
+    const auto system = assemble(at_torque);
     StaticSolver solver(system);
     auto workspace = system.workspace();
     double largest = 0;
-    for (const int cycle : LinearForces(perfect[s], stage).worst_cycles()) {
+    for (const int cycle : LinearForces(perfect[s], at_torque).worst_cycles()) {
       Eigen::VectorXd mean = Eigen::VectorXd::Zero(planets);
       for (int p = 0; p < positions; ++p) {
         (void)solver.solve((cycle + static_cast<double>(p) / positions) / stage.mesh_frequency(), workspace);

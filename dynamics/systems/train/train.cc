@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/whole_ratio.h"
@@ -64,17 +65,24 @@ void check_shaft(const Train& train, const TrainShaft& shaft) {
                                  full_name(shaft.from), a, full_name(shaft.to), b));
 }
 
-/// Parts that shafts connect with the first one, which is one of them.
-std::set<std::string> reached_parts(const Train& train) {
-  std::set<std::string> reached{train.parts.front().name};
-  for (std::size_t before = 0; before != reached.size();) {
-    before = reached.size();
-    for (const auto& shaft : train.shafts) {
-      if (reached.count(shaft.from.part) > 0) reached.insert(shaft.to.part);
-      if (reached.count(shaft.to.part) > 0) reached.insert(shaft.from.part);
-    }
+/// Shafts connect all parts with the first one, each in one way: no load would reach parts in a ring of shafts.
+void check_connections(const Train& train) {
+  std::map<std::string, std::string> lead;  // of the parts that are connected with each other
+  for (const auto& part : train.parts) lead[part.name] = part.name;
+  for (const auto& shaft : train.shafts) {
+    const auto from = lead[shaft.from.part], to = lead[shaft.to.part];
+    if (from == to)
+      throw InputError(
+          fmt::format("shaft '{}': other shafts connect '{}' with '{}' already; a torque that is locked in "
+                      "between shafts is not modelled",
+                      shaft.name, shaft.from.part, shaft.to.part));
+    for (auto& [part, own] : lead)
+      if (own == to) own = from;
   }
-  return reached;
+  const auto& first = train.parts.front().name;
+  for (const auto& part : train.parts)
+    if (lead[part.name] != lead[first])
+      throw InputError(fmt::format("no shaft connects part '{}' with '{}'", part.name, first));
 }
 
 void add_shaft(LumpedSystemBuilder& builder, const std::vector<int>& first_dof, const Train& train,
@@ -149,10 +157,7 @@ void Train::check() const {
       if (!taken.insert(full_name(*end)).second)
         throw InputError(fmt::format("shaft '{}': another shaft leads to '{}' already", shaft.name, full_name(*end)));
   }
-  const auto reached = reached_parts(*this);
-  for (const auto& part : parts)
-    if (reached.count(part.name) == 0)
-      throw InputError(fmt::format("no shaft connects part '{}' with '{}'", part.name, parts.front().name));
+  check_connections(*this);
   for (const auto& rotor : rotors)
     if (elements.count(rotor.name) > 0)
       throw InputError(fmt::format("a shaft and a rotor have the name '{}'", rotor.name));
@@ -184,7 +189,11 @@ SteadyProblem steady_problem(const Train& train) {
   return {fastest_mesh(train), period_of(train), force, force / deflection};
 }
 
-LumpedCase lumped_case(const Train& train) { return {assemble(train), steady_problem(train)}; }
+LumpedCase lumped_case(const Train& train) {
+  auto system = assemble(train);
+  check_ripples(train.rotors, train.shaft_ends());
+  return {std::move(system), steady_problem(train)};
+}
 
 TrainResponse simulate(const Train& train, const SimulationOptions& options) {
   const auto [system, problem] = lumped_case(train);

@@ -48,7 +48,8 @@ struct Train {
   /// All bodies, by names "part.body", with the reasons why no rotor can stand on them.
   [[nodiscard]] std::vector<ShaftEnd> shaft_ends() const;
   /// Throws InputError, naming shaft, part or body, when the train cannot be assembled: names that occur twice, parts
-  /// that no shaft reaches, bodies with two shafts, torques of the ends of a shaft that differ by more than 1e-6.
+  /// that no shaft reaches, shafts in a ring, bodies with two shafts, torques of the ends of a shaft that differ by
+  /// more than 1e-6.
   void check() const;
 };
 

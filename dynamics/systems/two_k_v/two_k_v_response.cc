@@ -39,8 +39,11 @@ OutputError output_error(const Eigen::VectorXd& form, const SteadyResponse& stea
   return error;
 }
 
-OutputError quasi_static_error(const TwoKVStage& stage, const LumpedSystem& system, const Eigen::VectorXd& form,
-                               int positions_per_cycle, Eigen::VectorXd& time) {
+/// Of the reducer by itself.
+OutputError quasi_static_error(TwoKVStage stage, int positions_per_cycle, Eigen::VectorXd& time) {
+  stage.rotors.clear();
+  const auto system = assemble(stage);
+  const Eigen::VectorXd form = error_form(stage, system);
   const int count = period_in_crank_turns(stage) * stage.planet_teeth * positions_per_cycle;
   const double period = period_in_crank_turns(stage) / stage.crank_frequency();
   time = Eigen::VectorXd::LinSpaced(count, 0, count - 1) * period / count;
@@ -132,8 +135,8 @@ LumpedCase lumped_case(const TwoKVStage& stage) {
         fmt::format("2K-V stage: with input and output fixed the torque of {} N m has no effect; leave one end free",
                     stage.output_torque));
   return {assemble(stage),
-          {stage.sun_mesh_frequency(), period_in_crank_turns(stage) * stage.planet_teeth, stage.mean_arc_mesh_force(),
-           mean_stiffness(stage.arc_mesh)}};
+          {stage.sun_mesh_frequency(), times_period(stage.planet_teeth, period_in_crank_turns(stage)),
+           stage.mean_arc_mesh_force(), mean_stiffness(stage.arc_mesh)}};
 }
 
 TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& given) {
@@ -154,7 +157,7 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& given) 
   const Eigen::VectorXd form = error_form(stage, system);
   response.dynamic = output_error(form, steady);
   constexpr int static_positions = 16;  // per sun mesh cycle
-  response.quasi_static = quasi_static_error(stage, system, form, static_positions, response.quasi_static_time);
+  response.quasi_static = quasi_static_error(stage, static_positions, response.quasi_static_time);
   response.sun_planet = branch_results(steady, 0, stage.cranks, response.mean_sun_force);
   response.arc_pins = branch_results(steady, stage.cranks, stage.arc_gears, arc_force,
                                      stage.sun_mesh_frequency() / stage.arc_mesh_frequency());

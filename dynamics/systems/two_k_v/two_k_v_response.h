@@ -29,7 +29,8 @@ struct TwoKVResponse : SteadyOutcome {
   double mean_sun_force = 0, mean_arc_force = 0;                               ///< N, reference of the factors
   int crank_turns = 0;                                                         ///< in the window
   OutputError dynamic;
-  OutputError quasi_static;           ///< K(t) q = f at `quasi_static_time`: the error of the changing stiffness alone
+  OutputError
+      quasi_static;  ///< K(t) q = f at `quasi_static_time`: the error of the changing stiffness alone, without rotors
   Eigen::VectorXd quasi_static_time;  ///< s, over one period
   std::vector<BranchResult> sun_planet, arc_pins;
   std::vector<ArcBearingResult> arc_bearings;

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 #include "benchmarks/stopwatch.h"
 
@@ -47,6 +48,29 @@ void write_material(fmt::ostream& out, const fem::Material& material, const std:
 void write_interaction(fmt::ostream& out, double contact_stiffness) {
   out.print("*SURFACE INTERACTION, NAME=flanks\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{}\n",
             deck_field(contact_stiffness / deck_MPa * deck_mm));
+}
+
+std::vector<std::map<int, Eigen::Vector2d>> read_displacements(const std::filesystem::path& file,
+                                                               const std::string& set) {
+  std::ifstream in(file);
+  std::vector<std::map<int, Eigen::Vector2d>> steps;
+  std::string line;
+  bool wanted = false;
+  const std::string any = "for set ", heading = any + set + " and time";
+  while (std::getline(in, line)) {
+    if (line.find(any) != std::string::npos) {
+      const auto found = line.find(heading);
+      wanted = found != std::string::npos &&
+               std::stod(line.substr(found + heading.size())) == static_cast<double>(steps.size() + 1);
+      if (wanted) steps.emplace_back();
+      continue;
+    }
+    int node = 0;
+    double x = 0, y = 0;
+    std::istringstream row(line);
+    if (wanted && row >> node >> x >> y) steps.back()[node] = {x, y};
+  }
+  return steps;
 }
 
 DeckRun run_deck(const std::filesystem::path& folder, int threads) {

@@ -2,7 +2,9 @@
 
 #include <fmt/os.h>
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,9 @@ struct DeckRun {
   int iterations = 0;
   std::string failure{};  ///< empty: none
 };
+/// Displacements (mm, or rad) of the nodes of a set at the end of every step, from job.dat. A step takes a second.
+[[nodiscard]] std::vector<std::map<int, Eigen::Vector2d>> read_displacements(const std::filesystem::path& file,
+                                                                             const std::string& set);
 /// Runs job.inp in a folder; job.dat is there afterwards.
 [[nodiscard]] DeckRun run_deck(const std::filesystem::path& folder, int threads);
 

@@ -60,7 +60,7 @@ NodeForces forces_of_play(const PlanetJob& job, const std::vector<bool>& pressin
   return forces;
 }
 
-/// The node of the bore next to the x axis, which is held against turning: loads leave nothing for it to carry.
+/// The node of the bore next to the x axis, which is fixed against rotation: loads leave nothing for it to carry.
 int held_node(const PlanetJob& job) {
   const auto bore = job.body.nodes_on(Boundary::support);
   return *std::max_element(bore.begin(), bore.end(),
@@ -112,27 +112,6 @@ void write_deck(const PlanetJob& job, const std::vector<bool>& pressing, const s
     out.print("*NODE PRINT, NSET=patches\nU\n*NODE PRINT, NSET=loaded\nU\n*NODE PRINT, NSET=bore\nU\n");
     out.print("*EL FILE, NSET=bore, OUTPUT=2D\nS\n*END STEP\n");
   }
-}
-
-/// Displacements, mm, of a set's nodes at the end of every step.
-std::vector<std::map<int, Eigen::Vector2d>> read_displacements(const std::filesystem::path& file,
-                                                               const std::string& set) {
-  std::ifstream in(file);
-  std::vector<std::map<int, Eigen::Vector2d>> steps;
-  std::string line;
-  bool wanted = false;
-  while (std::getline(in, line)) {
-    if (line.find("for set ") != std::string::npos) {
-      wanted = line.find("for set " + set + " ") != std::string::npos;
-      if (wanted) steps.emplace_back();
-      continue;
-    }
-    int node = 0;
-    double x = 0, y = 0;
-    std::istringstream row(line);
-    if (wanted && row >> node >> x >> y) steps.back()[node] = {x, y};
-  }
-  return steps;
 }
 
 /// Stresses xx, yy and xy, MPa, of the nodes in the results of every step: lines " -1", the node in ten columns, then

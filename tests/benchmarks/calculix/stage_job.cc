@@ -168,27 +168,6 @@ class StageDeck {
   int nodes_ = 0, cells_ = 0;
 };
 
-/// Displacements (mm, or rad) of the reference nodes at the end of every step.
-std::vector<std::map<int, Eigen::Vector2d>> read_displacements(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::vector<std::map<int, Eigen::Vector2d>> steps;
-  std::string line;
-  bool wanted = false;
-  const std::string heading = "for set REFERENCES and time";
-  while (std::getline(in, line)) {
-    if (const auto found = line.find(heading); found != std::string::npos) {
-      wanted = std::stod(line.substr(found + heading.size())) == static_cast<double>(steps.size() + 1);
-      if (wanted) steps.emplace_back();
-      continue;
-    }
-    int node = 0;
-    double x = 0, y = 0;
-    std::istringstream row(line);
-    if (wanted && row >> node >> x >> y) steps.back()[node] = {x, y};
-  }
-  return steps;
-}
-
 }  // namespace
 
 StageJobResult run_calculix(const StageJob& job, const std::filesystem::path& folder) {
@@ -205,7 +184,7 @@ StageJobResult run_calculix(const StageJob& job, const std::filesystem::path& fo
   result.cpu_seconds = run.cpu_seconds;
   result.iterations = run.iterations;
   result.failure = run.failure;
-  const auto steps = read_displacements(folder / "job.dat");
+  const auto steps = read_displacements(folder / "job.dat", "REFERENCES");
   if (result.failure.empty() && steps.size() != job.steps.size())
     result.failure = "ccx did not finish, see " + (folder / "job.log").string();
   if (!result.failure.empty()) return result;
