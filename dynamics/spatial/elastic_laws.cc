@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "core/errors.h"
@@ -111,68 +110,6 @@ ElasticLaw::State TableLaw::at(const Eigen::VectorXd& deflection) const {
     break;
   }
   return central_state(deflection, d, energy, force, slope);
-}
-
-namespace {
-
-constexpr int roller_slices = 31;
-constexpr double exponent = 10.0 / 9;
-
-}  // namespace
-
-RollerRowLaw::RollerRowLaw(const RollerRow& row, double clearance, bool tilts) : row_(row), tilts_(tilts) {
-  if (row.rollers < 3 || !(row.length > 0) || !(row.diameter > 0) || !std::isfinite(clearance))
-    throw InputError(fmt::format(
-        "a row of rollers needs three or more of them, and a positive length and diameter, not {}, {:g} m and {:g} m",
-        row.rollers, row.length, row.diameter));
-  constexpr double per_m = 1e3;  // mm
-  stiffness_ = 35948 * std::pow(per_m * row.length, 8.0 / 9) * std::pow(per_m, exponent) / roller_slices;
-  measures_.resize(row.rollers * roller_slices, size());
-  gaps_.resize(measures_.rows());
-  for (Eigen::Index i = 0; i < measures_.rows(); ++i) {
-    const Eigen::Index roller = i / roller_slices;
-    const double angle = 2 * std::numbers::pi * static_cast<double>(roller) / row.rollers;
-    const double share = (2 * static_cast<double>(i % roller_slices) + 1) / roller_slices - 1;
-    const double z = share * row.length / 2, c = std::cos(angle), s = std::sin(angle);
-    measures_.row(i).head<2>() << c, s;
-    if (tilts) measures_.row(i).tail<2>() << -z * s, z * c;
-    gaps_[i] = clearance / 2 - 0.00035 * row.diameter * std::log1p(-share * share);
-  }
-  // At the approach of a usual load, when half of the rollers carry.
-  constexpr double usual = 10e-6;
-  in_contact_ = exponent * stiffness_ * std::pow(usual, exponent - 1) / 2 * measures_.transpose() * measures_;
-}
-
-ElasticLaw::State RollerRowLaw::at(const Eigen::VectorXd& deflection) const {
-  // What keeps an unloaded body in its place.
-  const double within = stiffness_in_play * in_contact_(0, 0);
-  State state{within * deflection.head<2>().squaredNorm() / 2, Eigen::VectorXd::Zero(size()),
-              Eigen::MatrixXd::Zero(size(), size())};
-  state.force.head<2>() = within * deflection.head<2>();
-  state.tangent.topLeftCorner<2, 2>() = within * Eigen::Matrix2d::Identity();
-  const Eigen::VectorXd approach = measures_ * deflection - gaps_;
-  for (Eigen::Index i = 0; i < approach.size(); ++i) {
-    const double delta = approach[i];
-    if (delta <= 0) continue;
-    const double slope = stiffness_ * std::pow(delta, exponent - 1), force = slope * delta;
-    const auto measure = measures_.row(i).transpose();
-    state.energy += force * delta / (exponent + 1);
-    state.force += force * measure;
-    state.tangent += exponent * slope * measure * measure.transpose();
-  }
-  return state;
-}
-
-double RollerRowLaw::largest_roller_load(const Eigen::VectorXd& deflection) const {
-  const Eigen::VectorXd approach = measures_ * deflection - gaps_;
-  double largest = 0;
-  for (int roller = 0; roller < row_.rollers; ++roller) {
-    double load = 0;
-    for (int k = 0; k < roller_slices; ++k)
-      load += stiffness_ * std::pow(std::max(0.0, approach[roller * roller_slices + k]), exponent);
-    largest = std::max(largest, load);
-  }
-  return largest;
 }
 
 ElasticLaw::State LoadZoneLaw::at(const Eigen::VectorXd& deflection) const {

@@ -56,37 +56,6 @@ class TableLaw final : public ElasticLaw {
   double steepest_ = 0;  ///< N/m
 };
 
-/// A row of cylindrical rollers.
-struct RollerRow {
-  int rollers = 0;
-  double length = 0, diameter = 0;  ///< m, effective, of the rollers
-  bool operator==(const RollerRow&) const = default;
-};
-
-/// A row of cylindrical rollers in Hertz contact after [ISO16281]: every roller in slices along its length, whose force
-/// is c_s delta^(10/9) with c_s = 35948 N/mm^(10/9) (L_we / mm)^(8/9) over the number of slices, of steel. delta is the
-/// approach of the raceways at the slice less half the radial clearance (negative: preload) and the roller's
-/// logarithmic profile. The first roller stands on the x axis.
-class RollerRowLaw final : public ElasticLaw {
- public:
-  /// Coordinates: displacement along x and y, and where `tilts`, tilt about x and y. Throws InputError for sizes that
-  /// are not positive and fewer than three rollers.
-  RollerRowLaw(const RollerRow& row, double clearance, bool tilts);
-  [[nodiscard]] int size() const override { return tilts_ ? 4 : 2; }
-  [[nodiscard]] State at(const Eigen::VectorXd& deflection) const override;
-  [[nodiscard]] Eigen::MatrixXd in_contact() const override { return in_contact_; }
-  /// N, of the most loaded roller.
-  [[nodiscard]] double largest_roller_load(const Eigen::VectorXd& deflection) const;
-
- private:
-  RollerRow row_;
-  double stiffness_ = 0;  ///< c_s, N/m^(10/9)
-  bool tilts_;
-  Eigen::MatrixXd measures_;  ///< slices x coordinates: approach of the raceways; roller after roller
-  Eigen::VectorXd gaps_;      ///< m, per slice
-  Eigen::MatrixXd in_contact_;
-};
-
 /// Two radial directions of a rolling bearing with a load zone.
 class LoadZoneLaw final : public ElasticLaw {
  public:

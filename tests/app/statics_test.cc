@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -177,6 +178,60 @@ BOOST_AUTO_TEST_CASE(files_and_warnings) {
   BOOST_TEST(pair.err.find("planetary stages alone") != std::string::npos, pair.err);
 }
 
+// Planets and carrier on preloaded tapered rollers, the sun's shaft on balls: statics of the bodies.
+BOOST_AUTO_TEST_CASE(rolling_elements) {
+  annulus::test::Verification record("A stage on tapered rollers and balls", "statics of its bodies");
+  const test::TemporaryFolder folder("statics_5");
+  const auto rows = [](const std::string& name, const std::string& body, double at, const std::string& keys) {
+    const auto one = [&](const char* side, int sign) {
+      return bearing(name + side, body,
+                     fmt::format("at_mm = {}\ncontact_angle_deg = {}\n{}", sign * at, sign * 14, keys));
+    };
+    return one(" up", -1) + one(" down", 1);
+  };
+  constexpr double thrust = 40e3;
+  const auto json = solved(
+      folder,
+      helical_stage() +
+          rows("planet", "planet", 60,
+               "rollers = 24\nroller_length_mm = 45\nroller_diameter_mm = 30\npitch_diameter_mm = 240\n"
+               "clearance_um = -20\n") +
+          rows("carrier", "carrier", 280,
+               "rollers = 40\nroller_length_mm = 60\nroller_diameter_mm = 40\npitch_diameter_mm = 700\n"
+               "clearance_um = -40\n") +
+          bearing("shaft", "sun",
+                  "at_mm = 700\nballs = 12\nball_diameter_mm = 50\npitch_diameter_mm = 200\nclearance_um = 20\n") +
+          bearing("spline", "sun", "radial_N_per_m = 5e7\ntilt_Nm_per_rad = 1e6\n") +
+          fmt::format("[[load]]\nname = \"thrust\"\nbody = \"carrier\"\nforce_N = [0, 0, {}]\n", thrust));
+  const auto& bearings = json.at("rings").at("held").at("bearings");
+  const auto number = [&](const std::string& name) {
+    return std::find_if(bearings.begin(), bearings.end(), [&](const auto& b) { return b.at("name") == name; }) -
+           bearings.begin();
+  };
+  const auto axial = [&](const std::string& name) -> double {
+    return bearings.at(number(name)).at("axial_force_max_N").at("value");
+  };
+  // Forces on planets have no axial part: their meshes lean against each other.
+  const auto csv = table(folder, "bearings.csv");
+  const auto force = [&](const std::string& name) {
+    return csv.rows.front().at(csv.column(fmt::format("bearing{}_z_N", number(name) + 1)));
+  };
+  const double carried = force("carrier up") + force("carrier down");
+  record.close("axial force of the carrier's rows", "N", carried, -thrust, 1e-6, "residual of the equilibrium");
+  const double planet = force("planet up planet1") + force("planet down planet1");
+  record.at_most("axial force of a planet's rows over that of one", "", std::abs(planet) / axial("planet up planet1"),
+                 1e-6, "residual of the equilibrium");
+  // Sun: F tan(helix) of three meshes, borne by the balls, whose contact angle follows.
+  const double helix = 7.5 * units::deg,
+               tangent = std::tan(helix) * std::cos(std::atan(std::tan(20 * units::deg) / std::cos(helix)));
+  const double mesh_force = json.at("rings").at("held").at("mean_mesh_force_N");
+  record.close("axial force of the balls", "N", axial("shaft"), 3 * mesh_force * tangent, 1e-6,
+               "residual of the equilibrium");
+  for (const auto* name : {"planet up planet1", "carrier down", "shaft"})
+    BOOST_TEST(bearings.at(number(name)).at("rolling_element_force_max_N").at("value").get<double>() > 0);
+  BOOST_TEST(!bearings.at(number("spline")).contains("rolling_element_force_max_N"));
+}
+
 BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
   const auto expect_refusal = [](const std::string& tables, const std::string& words) {
     const auto refusal = test::scene_refusal(helical_stage() + tables);
@@ -193,13 +248,23 @@ BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
   expect_refusal(bearing("a", "carrier", "radial_N_per_m = 1e9\nx_N_per_m = 1e9\n"), "a value for each direction");
   expect_refusal(bearing("a", "carrier", "stiffness_5x5_N_m_rad = [1, 2]\n"), "needs 25 values");
   expect_refusal(bearing("a", "carrier", "radial_N_per_m = 1e9\nclearance_um = -5\n"),
-                 "is a preload, which rollers alone have");
+                 "is a preload, which rolling elements alone have");
   expect_refusal(bearing("a", "carrier", "rollers = 20\nroller_length_mm = 20\n"), "roller_diameter_mm");
   expect_refusal(bearing("a", "carrier", "radial_displacement_um = [0, 10]\nradial_force_N = [0, 0]\n"), "must rise");
   expect_refusal(bearing("a", "carrier", "radial_displacement_um = [0, 10]\n"), "radial_force_N");
   expect_refusal(
       bearing("a", "carrier", "rollers = 20\nroller_length_mm = 20\nroller_diameter_mm = 20\nradial_N_per_m = 1e9\n"),
       "follows from their contact");
+  const std::string rollers = "rollers = 20\nroller_length_mm = 20\nroller_diameter_mm = 20\n";
+  expect_refusal(bearing("a", "carrier", rollers + "contact_angle_deg = 12\n"), "give bearing.pitch_diameter_mm");
+  expect_refusal(bearing("a", "carrier", rollers + "contact_angle_deg = 12\npitch_diameter_mm = 15\n"),
+                 "larger than the diameter of the rolling elements, 20 mm");
+  expect_refusal(
+      bearing("a", "carrier", rollers + "contact_angle_deg = 12\npitch_diameter_mm = 300\naxial_N_per_m = 1e9\n"),
+      "hold along the axis by themselves");
+  expect_refusal(bearing("a", "carrier", rollers + "balls = 12\n"), "one kind of rolling elements");
+  expect_refusal(bearing("a", "carrier", "balls = 12\nball_diameter_mm = 20\n"), "pitch_diameter_mm");
+  expect_refusal(bearing("a", "carrier", rollers + "inner_groove_ratio = 0.55\n"), "rollers have no grooves");
   std::string rows = "[";
   for (int i = 0; i < 25; ++i) rows += std::string(i > 0 ? ", " : "") + (i % 6 == 0 ? "1e8" : i == 1 ? "1e7" : "0");
   expect_refusal(bearing("a", "carrier", "stiffness_5x5_N_m_rad = " + rows + "]\n"), "not symmetric");

@@ -8,31 +8,13 @@
 #include "dynamics/spatial/coupled_faces.h"
 #include "dynamics/spatial/elastic_laws.h"
 #include "dynamics/spatial/even_face.h"
+#include "tests/dynamics/law_slopes.h"
 #include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(elastic_laws)
 
 using namespace annulus::dynamics;
 using annulus::ElasticLaw;
-
-/// Force and tangent against central differences of the energy and of the force, relative to the largest entries.
-struct Slopes {
-  double force = 0, tangent = 0;
-};
-Slopes slopes(const ElasticLaw& law, const Eigen::VectorXd& at, double step) {
-  const auto state = law.at(at);
-  Slopes worst;
-  for (Eigen::Index i = 0; i < at.size(); ++i) {
-    Eigen::VectorXd up = at, down = at;
-    up[i] += step;
-    down[i] -= step;
-    const auto high = law.at(up), low = law.at(down);
-    worst.force = std::max(worst.force, std::abs((high.energy - low.energy) / (2 * step) - state.force[i]));
-    worst.tangent =
-        std::max(worst.tangent, ((high.force - low.force) / (2 * step) - state.tangent.col(i)).cwiseAbs().maxCoeff());
-  }
-  return {worst.force / state.force.cwiseAbs().maxCoeff(), worst.tangent / state.tangent.cwiseAbs().maxCoeff()};
-}
 
 // The step of the differences leaves its square over that of the deflection, and rounding over the step.
 BOOST_AUTO_TEST_CASE(force_and_tangent_belong_to_the_energy) {
@@ -48,18 +30,14 @@ BOOST_AUTO_TEST_CASE(force_and_tangent_belong_to_the_energy) {
                     std::vector<double>{3e-5, -2e-5});
   laws.emplace_back(std::make_unique<EvenFace>(2e9, stations, gap), std::vector<double>{2e-5, 1e-5, -1e-5, 2e-5});
   laws.emplace_back(std::make_unique<EvenFace>(2e9, stations, gap), std::vector<double>{-2e-5, -1e-5, 3e-5, 2e-5});
-  laws.emplace_back(std::make_unique<RollerRowLaw>(RollerRow{17, 30e-3, 30e-3}, 20e-6, true),
-                    std::vector<double>{3e-5, -2e-5, 4e-4, -1e-4});
-  laws.emplace_back(std::make_unique<RollerRowLaw>(RollerRow{17, 30e-3, 30e-3}, -10e-6, false),
-                    std::vector<double>{3e-5, -2e-5});
   laws.emplace_back(std::make_unique<TableLaw>(std::vector<double>{1e-5, 2e-5, 5e-5}, std::vector<double>{0, 1e4, 8e4}),
                     std::vector<double>{3e-5, -2e-5});
   laws.emplace_back(std::make_unique<TableLaw>(std::vector<double>{0, 2e-5}, std::vector<double>{0, 1e4}),
                     std::vector<double>{3e-5, -2e-5});
-  Slopes worst;
+  annulus::test::LawSlopes worst;
   for (const auto& [law, at] : laws) {
     const Eigen::VectorXd point = Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at));
-    const auto found = slopes(*law, point, 1e-9);
+    const auto found = annulus::test::law_slopes(*law, point, 1e-9);
     worst.force = std::max(worst.force, found.force);
     worst.tangent = std::max(worst.tangent, found.tangent);
     BOOST_TEST(law->in_contact().rows() == law->size());
@@ -96,30 +74,6 @@ BOOST_AUTO_TEST_CASE(misaligned_pair) {
   }
 }
 
-// Without clearance Q_max = 4.08 F / Z in line contact (Stribeck's number of rollers: 1 / J_r(0.5) = 1 / 0.2453), and
-// the rings approach each other by (Q_max / c_L)^0.9. The profile takes some of the length off; here it is that of thin
-// rollers, which is none.
-BOOST_AUTO_TEST_CASE(rollers_share_a_radial_load) {
-  annulus::test::Verification record("Row of cylindrical rollers", "load distribution of line contact; ISO/TS 16281");
-  const int rollers = 200;
-  const RollerRowLaw law({rollers, 40e-3, 1e-9}, 0, false);
-  const double approach = 20e-6, c_l = 35948 * std::pow(40.0, 8.0 / 9) * std::pow(1e3, 10.0 / 9);
-  const Eigen::Vector2d deflection(approach, 0);
-  const double force = law.at(deflection).force[0], most = law.largest_roller_load(deflection);
-  record.close("load of the most loaded roller times their number over the load", "", most * rollers / force, 4.08,
-               2e-3, "printed digits");
-  record.close("approach of the rings", "m", std::pow(most / c_l, 0.9), approach, 1e-6, "profile");
-  // Preload: all rollers carry, and small motions meet a stiffness that is the same in both directions.
-  const RollerRowLaw preloaded({rollers, 40e-3, 1e-9}, -20e-6, true);
-  const auto still = preloaded.at(Eigen::VectorXd::Zero(4));
-  BOOST_TEST(still.force.norm() <= 1e-9 * rollers * c_l * std::pow(10e-6, 10.0 / 9));
-  record.close("stiffness under preload", "N/m", still.tangent(0, 0),
-               rollers / 2.0 * 10.0 / 9 * c_l * std::pow(10e-6, 1.0 / 9), 1e-6, "sum over the rollers");
-  record.close("tilt stiffness under preload", "N m/rad", still.tangent(2, 2), still.tangent(0, 0) * 40e-3 * 40e-3 / 12,
-               2e-3, "slices along the roller");
-  BOOST_CHECK_THROW(RollerRowLaw({2, 40e-3, 1e-2}, 0, true), annulus::InputError);
-}
-
 // Meshes that press on each other through a common body: energy, and the forces by hand where all of them touch.
 BOOST_AUTO_TEST_CASE(coupled_faces) {
   annulus::test::Verification record("Meshes coupled through the ring", "linear equations by hand; differences");
@@ -141,9 +95,9 @@ BOOST_AUTO_TEST_CASE(coupled_faces) {
   for (int n = 0; n < 3; ++n)
     record.close("forces of three meshes", "N", state.force.segment(3 * n, 3).sum(), expected[n], 1e-12, "rounding");
   BOOST_TEST((law.losses(state) - d * expected).norm() <= 1e-12 * (d * expected).norm());
-  const auto smooth = slopes(law, approach, 1e-9);
+  const auto smooth = annulus::test::law_slopes(law, approach, 1e-9);
   approach.segment(3, 3) << 12e-6, -3e-6, -20e-6;
-  const auto lifted = slopes(law, approach, 1e-9);
+  const auto lifted = annulus::test::law_slopes(law, approach, 1e-9);
   record.at_most("force, largest relative difference", "", std::max(smooth.force, lifted.force), 1e-7,
                  "step of the differences");
   record.at_most("tangent, largest relative difference", "", std::max(smooth.tangent, lifted.tangent), 1e-6,

@@ -61,8 +61,15 @@ BOOST_AUTO_TEST_CASE(equilibrium_is_that_of_the_statics) {
       s.bearings[6].play = 150e-6;
       s.bearings[7].play = 100e-6;
       s.bearings[7].load_zone = false;
-      s.bearings[0].rollers = RollerRow{30, 0.04, 0.03};
-      s.bearings[0].clearance = 50e-6;
+      s.bearings[0].row = {.count = 30,
+                           .diameter = 0.03,
+                           .length = 0.04,
+                           .pitch_diameter = 0.3,
+                           .contact_angle = 0.2,
+                           .clearance = -30e-6,
+                           .ring = RollingRow::Ring::outer};
+      s.bearings[1].row = s.bearings[0].row;
+      s.bearings[1].row->contact_angle = -0.25;
     }
     // Pins that bend tilt the planets until a part of the faces has no contact.
     if (which == Case::pins || which == Case::partial) {

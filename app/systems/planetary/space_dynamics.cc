@@ -50,7 +50,7 @@ dynamics::StageSpace::TiltInertia tilt_inertia(const Scene& scene, const GearGeo
 
 /// Whether a bearing's force is no linear function of its motion.
 bool bends(const BearingInput& b) {
-  return b.rollers || !b.displacement.empty() || b.clearance > 0 || b.axial_clearance > 0;
+  return b.rolls() || !b.displacement.empty() || b.clearance > 0 || b.axial_clearance > 0;
 }
 
 bool depends_on_direction(const BearingInput& b) {
@@ -64,10 +64,8 @@ bool moves_in_space(const Scene& scene) { return scene.own<SpaceInput>().any(); 
 
 bool has_radial_bearing(const Scene& scene, dynamics::StageBody::Kind body) {
   const auto& bearings = scene.own<SpaceInput>().bearings;
-  return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) {
-    return b.body == body && !b.planet &&
-           (b.radial || b.x || b.y || b.rollers || !b.displacement.empty() || !b.matrix.empty());
-  });
+  return std::any_of(bearings.begin(), bearings.end(),
+                     [&](const auto& b) { return b.body == body && !b.planet && b.holds_radially(); });
 }
 
 void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const GearGeometry& geometry, std::size_t ring,

@@ -24,8 +24,15 @@ struct BearingInput {
   bool load_zone = true;
   std::vector<double> matrix;
   std::vector<double> displacement, force;
-  std::optional<int> rollers;
-  std::optional<double> roller_length, roller_diameter;
+  std::optional<int> rollers, balls;
+  std::optional<double> roller_length, roller_diameter, ball_diameter, pitch_diameter;
+  double contact_angle = 0, inner_groove = 0.52, outer_groove = 0.53;
+  std::optional<dynamics::RollingRow::Ring> ring;  ///< absent: planets have the outer one, other bodies the inner one
+
+  [[nodiscard]] bool rolls() const { return rollers || balls; }
+  [[nodiscard]] bool holds_radially() const {
+    return radial || x || y || rolls() || !displacement.empty() || !matrix.empty();
+  }
 };
 
 struct LoadInput {

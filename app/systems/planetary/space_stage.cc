@@ -47,6 +47,22 @@ std::string name_of(const std::string& name, const StageBody& body, bool of_all)
   return of_all ? fmt::format("{} {}", name, dynamics::name_of_body(body)) : name;
 }
 
+dynamics::RollingRow rolling_row(const BearingInput& input) {
+  using Row = dynamics::RollingRow;
+  Row row;
+  row.element = input.balls ? Row::Element::ball : Row::Element::roller;
+  row.count = input.balls ? *input.balls : *input.rollers;
+  row.diameter = input.balls ? *input.ball_diameter : *input.roller_diameter;
+  row.length = input.roller_length.value_or(0);
+  row.pitch_diameter = input.pitch_diameter.value_or(0);
+  row.contact_angle = input.contact_angle;
+  row.clearance = input.clearance;
+  row.inner_groove = input.inner_groove;
+  row.outer_groove = input.outer_groove;
+  row.ring = input.ring.value_or(input.body == Body::planet ? Row::Ring::outer : Row::Ring::inner);
+  return row;
+}
+
 void add_bearings(const Scene& scene, dynamics::SpatialStage& stage) {
   for (const auto& input : scene.own<SpaceInput>().bearings)
     for (const auto& body : bodies_of(scene, input.body, input.planet)) {
@@ -66,9 +82,8 @@ void add_bearings(const Scene& scene, dynamics::SpatialStage& stage) {
       b.axial_play = input.axial_clearance / 2;
       b.distance = input.displacement;
       b.force = input.force;
-      if (input.rollers) {
-        b.rollers = {*input.rollers, *input.roller_length, *input.roller_diameter};
-        b.clearance = input.clearance;
+      if (input.rolls()) {
+        b.row = rolling_row(input);
         b.play = 0;
       }
       if (!input.matrix.empty())

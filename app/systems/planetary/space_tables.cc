@@ -11,6 +11,7 @@
 #include "app/scene/scene_declare.h"
 #include "app/systems/planetary/space_input.h"
 #include "core/errors.h"
+#include "core/units.h"
 #include "dynamics/spatial/elastic_laws.h"
 
 namespace annulus::app {
@@ -70,12 +71,13 @@ Table bearing_table() {
   const auto stiffness = [&](const char* name, auto member, const char* meaning) {
     return bearing.key(name, member, meaning).from(0, 1e15).infinite().word("rigid", rigid);
   };
-  const auto has_matrix = given("stiffness_5x5_N_m_rad"), has_rollers = given("rollers");
-  constexpr const char* why_rollers = "the stiffness of the rollers follows from their contact";
+  const auto has_matrix = given("stiffness_5x5_N_m_rad"), has_balls = given("balls");
+  const auto has_rows = given("rollers") || has_balls;
+  constexpr const char* why_rows = "the stiffness of rolling elements follows from their contact";
   constexpr const char* why_matrix = "the matrix contains all stiffnesses";
   stiffness("radial_N_per_m", &BearingInput::radial, "Radial stiffness, the same in all directions.")
       .refused_if(has_matrix, why_matrix)
-      .refused_if(has_rollers, why_rollers)
+      .refused_if(has_rows, why_rows)
       .refused_if(given("x_N_per_m") || given("y_N_per_m"), "the stiffness has a value for each direction")
       .absent("none");
   for (const auto& [name, member, meaning] :
@@ -84,7 +86,7 @@ Table bearing_table() {
         {"y_N_per_m", &BearingInput::y, "Stiffness along y; of planets tangentially."}})
     stiffness(name, member, meaning)
         .refused_if(has_matrix, why_matrix)
-        .refused_if(has_rollers, why_rollers)
+        .refused_if(has_rows, why_rows)
         .absent("radial_N_per_m");
   stiffness("axial_N_per_m", &BearingInput::axial, "Stiffness along the axis.")
       .refused_if(has_matrix, why_matrix)
@@ -94,14 +96,14 @@ Table bearing_table() {
       .infinite()
       .word("rigid", rigid)
       .refused_if(has_matrix, why_matrix)
-      .refused_if(has_rollers, why_rollers)
+      .refused_if(has_rows, why_rows)
       .fallback(0.0, "it tilts freely");
   bearing
       .key("radial_displacement_um", &BearingInput::displacement,
            "Radial displacements of a table, rising from 0 or from where the clearance ends.")
       .from(0, 1e5)
       .together_with("radial_force_N")
-      .refused_if(has_matrix || has_rollers || given("radial_N_per_m") || given("x_N_per_m") || given("y_N_per_m"),
+      .refused_if(has_matrix || has_rows || given("radial_N_per_m") || given("x_N_per_m") || given("y_N_per_m"),
                   "the table is the radial stiffness")
       .absent("the single stiffnesses");
   bearing.key("radial_force_N", &BearingInput::force, "Forces at these displacements, along them; they must not fall.")
@@ -109,23 +111,59 @@ Table bearing_table() {
       .absent("the single stiffnesses");
   bearing
       .key("rollers", &BearingInput::rollers,
-           "Number of cylindrical rollers in the row. Their line contact (ISO/TS 16281, steel, logarithmic profile) "
-           "gives "
-           "its radial and tilting stiffness.")
+           "Number of rollers in the row, cylindrical or tapered. Their line contact (ISO/TS 16281, steel, logarithmic "
+           "profile) gives its stiffness.")
       .from(3, 1000)
       .refused_if(has_matrix, why_matrix)
+      .refused_if(has_balls, "a row has one kind of rolling elements")
       .absent("the single stiffnesses");
   bearing.key("roller_length_mm", &BearingInput::roller_length, "Effective length of the rollers.")
       .above(0, 1000)
-      .needed_if(has_rollers);
-  bearing.key("roller_diameter_mm", &BearingInput::roller_diameter, "Diameter of the rollers.")
+      .needed_if(given("rollers"));
+  bearing.key("roller_diameter_mm", &BearingInput::roller_diameter, "Diameter of the rollers, in their middle.")
       .above(0, 1000)
-      .needed_if(has_rollers);
+      .needed_if(given("rollers"));
+  bearing
+      .key("balls", &BearingInput::balls,
+           "Number of balls in the row. Their contacts (ISO/TS 16281, steel) give its stiffness.")
+      .from(3, 1000)
+      .refused_if(has_matrix, why_matrix)
+      .absent("the single stiffnesses");
+  bearing.key("ball_diameter_mm", &BearingInput::ball_diameter, "Diameter of the balls.")
+      .above(0, 1000)
+      .needed_if(has_balls);
+  bearing
+      .key("pitch_diameter_mm", &BearingInput::pitch_diameter,
+           "Diameter on which the middles of the rolling elements lie. Rows with a contact angle need it.")
+      .above(0, 1e5)
+      .required_if(has_balls)
+      .only_if(has_rows, "it is that of a row of rolling elements")
+      .absent("only cylindrical rollers need none");
+  bearing
+      .key("contact_angle_deg", &BearingInput::contact_angle,
+           "Contact angle without load; of tapered rollers that of the outer raceway. Positive: the row holds the body "
+           "against a displacement along +z, negative: against one along -z.")
+      .only_if(has_rows, "it is that of a row of rolling elements")
+      .fallback(0.0, "cylindrical rollers, or a deep groove")
+      .from(-80, 80);
+  for (const auto& [key, member, value, name] :
+       {std::tuple{"inner_groove_ratio", &BearingInput::inner_groove, 0.52, "inner"},
+        {"outer_groove_ratio", &BearingInput::outer_groove, 0.53, "outer"}})
+    bearing.key(key, member, fmt::format("Radius of the groove of the {} ring over the diameter of the balls.", name))
+        .only_if(has_balls, "rollers have no grooves")
+        .fallback(value, "ISO/TS 16281")
+        .above(0.5, 10);
+  bearing
+      .choice("body_ring", &BearingInput::ring,
+              {{"inner", dynamics::RollingRow::Ring::inner}, {"outer", dynamics::RollingRow::Ring::outer}},
+              "The ring of the row that sits on the body.")
+      .only_if(has_rows, "it is that of a row of rolling elements")
+      .absent("the outer one of planets, the inner one of other bodies");
   bearing
       .key("clearance_um", &BearingInput::clearance,
-           "Radial clearance (ISO 5753-1): how far the body moves across it from stop to stop. Negative, of rollers "
-           "alone: preload.")
-      .only_if(given("radial_N_per_m") || has_rollers, "beyond the clearance it has one stiffness in all directions")
+           "Radial clearance (ISO 5753-1): how far the body moves across it from stop to stop. Negative, of rolling "
+           "elements alone: preload.")
+      .only_if(given("radial_N_per_m") || has_rows, "beyond the clearance it has one stiffness in all directions")
       .fallback(0.0, "none")
       .from(-1000, 1e5);
   bearing
@@ -134,7 +172,7 @@ Table bearing_table() {
               "load is; radial_N_per_m is the stiffness without clearance. stop: radial_N_per_m times the way beyond "
               "half the clearance.")
       .only_if(given("clearance_um"), "without clearance both are the same")
-      .refused_if(has_rollers, "rollers have a law of their own")
+      .refused_if(has_rows, "rolling elements have a law of their own")
       .fallback("load_zone", "as in rolling bearings");
   bearing
       .key("axial_clearance_um", &BearingInput::axial_clearance,
@@ -304,10 +342,11 @@ class SpaceChecks : KeyChecks {
               "needs a bearing that gives way beyond it; use a finite stiffness");
     if (b.clearance > 0 && b.radial == 0.0 && usable("bearing.clearance_um", i))
       problem("bearing.clearance_um", i, "needs a stiffness beyond it: bearing.radial_N_per_m is 0");
-    if (b.clearance < 0 && !b.rollers && usable("bearing.clearance_um", i))
-      problem("bearing.clearance_um", i, "is a preload, which rollers alone have (bearing.rollers); use 0 or more");
+    if (b.clearance < 0 && !b.rolls() && usable("bearing.clearance_um", i))
+      problem("bearing.clearance_um", i,
+              "is a preload, which rolling elements alone have (bearing.rollers, bearing.balls); use 0 or more");
     if (!b.matrix.empty()) return matrix(i, b.matrix);
-    if (b.rollers) return;
+    if (b.rolls()) return row(i, b);
     if (!b.displacement.empty() && usable("bearing.radial_displacement_um", i) && usable("bearing.radial_force_N", i))
       try {
         return (void)dynamics::TableLaw(b.displacement, b.force);
@@ -334,6 +373,20 @@ class SpaceChecks : KeyChecks {
     } catch (const InputError& error) {
       problem(key, i, error.what());
     }
+  }
+
+  void row(std::size_t i, const BearingInput& b) {
+    const auto diameter = b.balls ? b.ball_diameter : b.roller_diameter;
+    const bool inclined = b.balls || b.contact_angle != 0;
+    if (b.rollers && inclined && !b.pitch_diameter && usable("bearing.contact_angle_deg", i))
+      problem("bearing.contact_angle_deg", i, "needs the place of the contacts; give bearing.pitch_diameter_mm");
+    if (inclined && b.pitch_diameter && diameter && *b.pitch_diameter <= *diameter &&
+        usable("bearing.pitch_diameter_mm", i))
+      problem("bearing.pitch_diameter_mm", i,
+              fmt::format("must be larger than the diameter of the rolling elements, {:g} mm", *diameter / units::mm));
+    if (inclined && given("bearing.axial_N_per_m", i) && usable("bearing.axial_N_per_m", i))
+      problem("bearing.axial_N_per_m", i,
+              "the rolling elements hold along the axis by themselves; leave it out, or give another bearing");
   }
 
   void load(std::size_t i, const LoadInput& l) {

@@ -99,6 +99,7 @@ std::vector<BearingStatics> all_bearings(const dynamics::SpatialStage& stage, co
     bearing.radial = most([](const auto& x) { return x.force.template head<2>().norm(); });
     bearing.axial = most([](const auto& x) { return std::abs(x.force.z()); });
     bearing.moment = most([](const auto& x) { return x.moment.norm(); });
+    if (made.bearings.at(b).row) bearing.element = most([](const auto& x) { return x.largest_element; });
     for (const auto& p : turn.positions) bearing.mean_radial += p.bearings[b].force.head<2>().norm();
     bearing.mean_radial /= static_cast<double>(turn.positions.size());
     list.push_back(std::move(bearing));
@@ -142,8 +143,7 @@ void check_sun(const Scene& scene) {
   const auto* sun = scene.find("supports.sun_N_per_m");
   const bool given = sun != nullptr && sun->origin == Origin::scene;
   const bool has_bearing = std::any_of(bearings.begin(), bearings.end(), [](const auto& b) {
-    const bool radial = b.radial || b.x || b.y || b.rollers || !b.displacement.empty() || !b.matrix.empty();
-    return radial && b.body == dynamics::StageBody::Kind::sun;
+    return b.body == dynamics::StageBody::Kind::sun && b.holds_radially();
   });
   if (!given && !has_bearing && scene.stage.planets > 1)
     throw InputError(fmt::format(

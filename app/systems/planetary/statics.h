@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ namespace annulus::app {
 struct BearingStatics {
   std::string name, body;
   Figure radial{}, axial{}, moment{};
-  double mean_radial = 0;  ///< N
+  std::optional<Figure> element{};  ///< N, the most loaded roller or ball
+  double mean_radial = 0;           ///< N
 };
 
 struct RingStatics {

@@ -69,10 +69,14 @@ Csv bearings_csv(const RingStatics& ring) {
     names.push_back(fmt::format("{} {} ({})", b, ring.bearings[b - 1].name, ring.bearings[b - 1].body));
     for (const auto* what : {"x_N", "y_N", "z_N", "about_x_Nm", "about_y_Nm"})
       columns.push_back(fmt::format("bearing{}_{}", b, what));
+    if (ring.bearings[b - 1].element) columns.push_back(fmt::format("bearing{}_rolling_element_N", b));
   }
-  auto csv = with_positions(ring, columns, [](const StaticPosition& p, std::vector<double>& row) {
-    for (const auto& b : p.bearings)
+  auto csv = with_positions(ring, columns, [&](const StaticPosition& p, std::vector<double>& row) {
+    for (std::size_t i = 0; i < p.bearings.size(); ++i) {
+      const auto& b = p.bearings[i];
       row.insert(row.end(), {b.force.x(), b.force.y(), b.force.z(), b.moment.x(), b.moment.y()});
+      if (ring.bearings[i].element) row.push_back(b.largest_element);
+    }
   });
   csv.header.emplace_back("bearings", fmt::format("{}", fmt::join(names, ", ")));
   csv.header.emplace_back("forces", "on the body, in the frame of the bearing; of planets x radial, y tangential");
@@ -152,13 +156,16 @@ Json ring_json(const RingStatics& ring) {
   json["carrier_positions"] = ring.turn.schedule.cycles.size();
   json["period_mesh_cycles"] = period_json(ring);
   json["residual_relative"] = ring.worst_residual;
-  for (const auto& b : ring.bearings)
-    json["bearings"].push_back({{"name", b.name},
-                                {"body", b.body},
-                                {"radial_force_max_N", figure_json(b.radial)},
-                                {"radial_force_mean_N", b.mean_radial},
-                                {"axial_force_max_N", figure_json(b.axial)},
-                                {"moment_max_Nm", figure_json(b.moment)}});
+  for (const auto& b : ring.bearings) {
+    Json bearing = {{"name", b.name},
+                    {"body", b.body},
+                    {"radial_force_max_N", figure_json(b.radial)},
+                    {"radial_force_mean_N", b.mean_radial},
+                    {"axial_force_max_N", figure_json(b.axial)},
+                    {"moment_max_Nm", figure_json(b.moment)}};
+    if (b.element) bearing["rolling_element_force_max_N"] = figure_json(*b.element);
+    json["bearings"].push_back(std::move(bearing));
+  }
   for (std::size_t b = 0; b < ring.tilt.size(); ++b)
     json["tilt_max_rad"][ring.turn.body_names[b]] = figure_json(ring.tilt[b]);
   return json;
@@ -236,9 +243,13 @@ Blocks bearing_blocks(const RingStatics& ring) {
   PageTable table{
       .head = {"bearing", "body", "radial force, largest", "mean", "axial force, largest", "moment, largest"},
       .style = PageTable::Style::numbers};
-  for (const auto& b : ring.bearings)
+  const bool rolls = std::any_of(ring.bearings.begin(), ring.bearings.end(), [](const auto& b) { return b.element; });
+  if (rolls) table.head.emplace_back("roller or ball, largest");
+  for (const auto& b : ring.bearings) {
     table.rows.push_back({b.name, b.body, force_text(ring, b.radial), text_in_unit(b.mean_radial, shown_units::force),
                           force_text(ring, b.axial), moment_text(ring, b.moment)});
+    if (rolls) table.rows.back().push_back(b.element ? force_text(ring, *b.element) : std::string("–"));
+  }
   Blocks blocks = heading(fmt::format("Bearings, '{}'", ring.ring));
   blocks += table;
   PageTable tilts{.head = {"body", "tilt, largest, µrad"}, .style = PageTable::Style::numbers};
@@ -315,6 +326,7 @@ std::string statics_text(const StageStatics& statics) {
       text += fmt::format("  {:28} {:9} radial {:>18}", b.name, b.body, force_text(ring, b.radial));
       if (!ring.reasons.empty())
         text += fmt::format(", axial {:>18}, moment {:>18}", force_text(ring, b.axial), moment_text(ring, b.moment));
+      if (b.element) text += fmt::format(", rolling element {:>18}", force_text(ring, *b.element));
       text += "\n";
     }
   }

@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "dynamics/spatial/elastic_laws.h"
+#include "dynamics/spatial/rolling_rows.h"
 #include "dynamics/system/lumped_system.h"
 
 namespace annulus::dynamics {
@@ -34,11 +35,16 @@ Vector3d centre_of(const SpatialStage& stage, const StageBody& body) {
   return stage.plane.carrier.radius * radial(stage.plane.planet_angles[static_cast<std::size_t>(body.planet)]);
 }
 
+std::optional<RollingRow> mirrored(std::optional<RollingRow> row) {
+  if (row) row->contact_angle = -row->contact_angle;
+  return row;
+}
+
 /// A bearing and its mirror image about the middle of the face do the same.
 bool mirrors(const StageBearing& a, const StageBearing& b) {
   return a.body == b.body && a.on == b.on && a.frame == b.frame && a.place == -b.place && a.x == b.x && a.y == b.y &&
-         a.play == b.play && a.load_zone == b.load_zone && a.rollers == b.rollers && a.clearance == b.clearance &&
-         a.distance == b.distance && a.force == b.force && !a.matrix && !b.matrix;
+         a.play == b.play && a.load_zone == b.load_zone && a.row == mirrored(b.row) && a.distance == b.distance &&
+         a.force == b.force && !a.matrix && !b.matrix;
 }
 /// Does a displacement in the plane call for no axial force and no tilting moment?
 bool keeps_plane(const Eigen::Matrix<double, 5, 5>& k) {
@@ -149,9 +155,9 @@ class Assembly {
       const auto count = static_cast<Eigen::Index>(coordinates.size());
       add_element(made, b, coordinates, std::make_shared<LinearLaw>(b.matrix->topLeftCorner(count, count)));
     } else {
-      if (b.rollers) {
-        const auto law = std::make_shared<RollerRowLaw>(*b.rollers, b.clearance, space_);
-        add_element(made, b, space_ ? std::vector<int>{0, 1, 3, 4} : std::vector<int>{0, 1}, law);
+      if (b.row) {
+        made.row = law_of(*b.row, space_);
+        add_element(made, b, made.row->coordinates(), made.row);
       } else if (!b.distance.empty()) {
         add_element(made, b, {0, 1}, std::make_shared<TableLaw>(b.distance, b.force));
       } else if (b.play > 0 && b.x > 0) {
@@ -164,8 +170,8 @@ class Assembly {
         add_scalar(made, b, 1, b.y, 0);
       }
       if (space_) {
-        add_scalar(made, b, 2, b.axial, b.axial_play);
-        if (!b.rollers) {
+        if (made.element[2] < 0) add_scalar(made, b, 2, b.axial, b.axial_play);
+        if (!b.row) {
           add_scalar(made, b, 3, b.tilt, 0);
           add_scalar(made, b, 4, b.tilt, 0);
         }
@@ -404,7 +410,7 @@ bool SpatialStage::depends_on_carrier_angle() const {
   if (gravity.head<2>().any() && !weights.empty()) return true;
   for (const auto& b : bearings) {
     if (b.frame != StageFrame::housing) continue;
-    if (b.matrix || b.rollers || b.x != b.y) return true;
+    if (b.matrix || b.row || b.x != b.y) return true;
   }
   const auto fixed = [](const CentralBody& body) { return body.errors.position.exists(); };
   return fixed(plane.sun) || fixed(plane.ring) || fixed(plane.carrier);

@@ -11,6 +11,7 @@
 #include "dynamics/spatial/coupled_faces.h"
 #include "dynamics/spatial/elastic_laws.h"
 #include "dynamics/spatial/mechanism.h"
+#include "dynamics/spatial/rolling_rows.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::dynamics {
@@ -29,10 +30,9 @@ struct StageBearing {
   bool load_zone = true;                    ///< with play: RadialBearing; else a stop (StopLaw)
   double axial_play = 0;                    ///< m, half the axial clearance
   std::vector<double> distance{}, force{};  ///< m, N: radial, over each other, instead of x, y and play (TableLaw)
-  std::optional<RollerRow> rollers{};       ///< instead of x, y, tilt and play
-  double clearance = 0;                     ///< m, of the rollers; negative: preload
+  std::optional<RollingRow> row{};          ///< instead of x, y, tilt and play, with a contact angle of axial too
   double seat = rigid;                      ///< N/m, in series with a bearing that has play and a load zone
-  [[nodiscard]] bool holds_radially() const { return matrix || rollers || !distance.empty() || x > 0 || y > 0; }
+  [[nodiscard]] bool holds_radially() const { return matrix || row || !distance.empty() || x > 0 || y > 0; }
   std::optional<Eigen::Matrix<double, 5, 5>> matrix{};  ///< instead of the stiffnesses; SI
 };
 
@@ -124,6 +124,7 @@ struct StageMechanism {
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of its frame, as columns
     /// x, y, z, about x, about y: the element and coordinate that resists it, or the hold; -1: nothing.
     std::array<int, 5> element{-1, -1, -1, -1, -1}, coordinate{}, held{-1, -1, -1, -1, -1};
+    std::shared_ptr<const RollingRowLaw> row{};  ///< of its first element; null: it has no rolling elements
   };
   std::vector<int> shared{};  ///< per hold: bearings that hold the same, and share what it bears
   std::vector<Bearing> bearings{};

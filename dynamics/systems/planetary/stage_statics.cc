@@ -52,6 +52,9 @@ StaticBearing bearing_in(const StageMechanism& made, const StageMechanism::Beari
     else
       result.moment[static_cast<Eigen::Index>(i) - 3] = value;
   }
+  if (bearing.row)
+    result.largest_element =
+        bearing.row->largest_element_load(at.deflection[static_cast<std::size_t>(bearing.element.front())]);
   return result;
 }
 

@@ -21,6 +21,7 @@ struct StaticMesh {
 struct StaticBearing {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N, on what it supports: it acts against its displacement
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();  ///< N m, about x and y
+  double largest_element = 0;                        ///< N, of its rolling elements; 0 without
 };
 
 /// Displacement of a body in its own axes: planets radial, tangential; others those of the carrier.
