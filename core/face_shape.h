@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 namespace annulus {
@@ -14,6 +15,9 @@ struct FaceShape {
   /// Largest deviation of force and moment / half the face width from those of the gears, relative to the force, while
   /// one end of the face approaches by half as much again as the middle.
   double error_relative = 0;
+  /// The same with the mean stiffness and moment between these tilts to either side, instead of those without tilt.
+  /// What a result changes by with it is what the straight law leaves open. Null: not known.
+  std::shared_ptr<const FaceShape> tilted{};
 };
 
 }  // namespace annulus

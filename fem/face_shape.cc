@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/parallel.h"
@@ -70,18 +71,15 @@ Eigen::Vector2d reduced_load(double slope, double curvature, double gap, double 
 }
 
 struct Reduced {
-  double slope = 0, curvature = 0, gap = 0, error = 0;
+  double slope = 0, curvature = 0, gap = 0;
 };
 
-Reduced reduced_at(const FaceLaw& law, double load) {
-  const double approach = approach_under(law, load);
-  const auto [force, tangent] = load_at(law, approach, 0);
+/// `stiffness`: N/m; `mean`, `square`: means of z and z^2 with the shares of the places in it; of straight flanks the
+/// moment over the force is `moment`.
+Reduced reduced(double force, double moment, double stiffness, double mean, double square) {
   // Means of z and z^2 with the weights are slope / 3 and 1/3 + 2/15 curvature.
-  const double mean = tangent(0, 1) / tangent(0, 0), square = tangent(1, 1) / tangent(0, 0);
-  Reduced result;
-  result.slope = 3 * mean;
-  result.curvature = (square - 1.0 / 3) * 7.5;
-  result.gap = (force[0] * mean - force[1]) / (tangent(0, 0) * (square - mean * mean));
+  const Reduced result{3 * mean, (square - 1.0 / 3) * 7.5,
+                       (force * mean - moment) / (stiffness * (square - mean * mean))};
   for (const double z : {-1.0, 1.0, -result.slope / (3 * result.curvature)}) {
     if (!(std::abs(z) <= 1)) continue;
     const double weight = 1 + result.slope * z + result.curvature * legendre(z);
@@ -92,29 +90,52 @@ Reduced reduced_at(const FaceLaw& law, double load) {
                       "cannot be reduced to its force and moment",
                       weight, z));
   }
-  constexpr double share = 0.5;
-  for (const double side : {-1.0, 1.0}) {
-    const double tilt = side * share * load / tangent(0, 0);
-    const auto exact = load_at(law, approach, tilt).force;
-    const auto found = reduced_load(result.slope, result.curvature, result.gap, load, tangent(0, 0), tilt);
-    result.error = std::max(result.error, (found - exact).cwiseAbs().maxCoeff() / load);
-  }
   return result;
+}
+
+struct ReducedPhase {
+  Reduced straight, tilted;
+  double error = 0;
+};
+
+ReducedPhase reduced_at(const FaceLaw& law, double load) {
+  const double approach = approach_under(law, load);
+  const auto [force, tangent] = load_at(law, approach, 0);
+  const double stiffness = tangent(0, 0);
+  ReducedPhase result;
+  result.straight = reduced(force[0], force[1], stiffness, tangent(0, 1) / stiffness, tangent(1, 1) / stiffness);
+  constexpr double share = 0.5;
+  const double tilt = share * load / stiffness;
+  const Eigen::Vector2d up = load_at(law, approach, tilt).force, down = load_at(law, approach, -tilt).force;
+  for (const auto& [exact, side] : {std::pair{&up, 1.0}, {&down, -1.0}}) {
+    const auto& r = result.straight;
+    const auto found = reduced_load(r.slope, r.curvature, r.gap, load, stiffness, side * tilt);
+    result.error = std::max(result.error, (found - *exact).cwiseAbs().maxCoeff() / load);
+  }
+  const Eigen::Vector2d between = (up - down) / (2 * tilt * stiffness);
+  result.tilted = reduced(force[0], (up[1] + down[1]) / 2, stiffness, between[0], between[1]);
+  return result;
+}
+
+void add(FaceShape& shape, const Reduced& phase) {
+  shape.slope.push_back(phase.slope);
+  shape.curvature.push_back(phase.curvature);
+  shape.gap_slope.push_back(phase.gap);
 }
 
 }  // namespace
 
 FaceShape reduced_face(const SolidFace& face, double load, int phases, int threads) {
-  std::vector<Reduced> list(static_cast<std::size_t>(phases));
+  std::vector<ReducedPhase> list(static_cast<std::size_t>(phases));
   for_each_task(list.size(), threads,
                 [&](std::size_t i) { list[i] = reduced_at(*face.at(static_cast<double>(i) / phases, load), load); });
-  FaceShape shape;
-  for (const auto& r : list) {
-    shape.slope.push_back(r.slope);
-    shape.curvature.push_back(r.curvature);
-    shape.gap_slope.push_back(r.gap);
-    shape.error_relative = std::max(shape.error_relative, r.error);
+  FaceShape shape, tilted;
+  for (const auto& phase : list) {
+    add(shape, phase.straight);
+    add(tilted, phase.tilted);
+    shape.error_relative = std::max(shape.error_relative, phase.error);
   }
+  shape.tilted = std::make_shared<const FaceShape>(std::move(tilted));
   return shape;
 }
 

@@ -67,7 +67,8 @@ std::vector<std::string> input_files(const Scene& scene) {
   std::vector<std::string> names;
   for (const auto& input : scene.inputs)
     if (const auto* name = std::get_if<std::string>(&input.value);
-        name != nullptr && (input.key.ends_with(".file") || input.key.ends_with("_topography")))
+        name != nullptr &&
+        (input.key.ends_with(".file") || input.key.ends_with("_file") || input.key.ends_with("_topography")))
       names.push_back(*name);
   names.insert(names.end(), scene.further_files.begin(), scene.further_files.end());
   return names;

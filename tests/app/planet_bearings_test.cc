@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/plan/gear_geometry.h"
+#include "app/systems/planetary/carrier_pins.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/stage_supports.h"
@@ -299,7 +300,7 @@ BOOST_AUTO_TEST_CASE(a_run_with_planets_on_rollers) {
 BOOST_AUTO_TEST_CASE(pins_in_space_bend_as_in_the_plane) {
   for (const std::string mounting : {"between_walls", "cantilever", "flexpin"}) {
     const auto scene = scene_of("planet_N_per_m = 1e9\n" + pin(mounting, 60, 120));
-    const auto stiffness = app::pin_stiffness_in_space(scene);
+    const auto stiffness = app::pins_in_space(scene, {0.3}, 0.1);
     BOOST_TEST_REQUIRE(stiffness.has_value());
     const Eigen::Matrix<double, 5, 5> compliance = stiffness->inverse();
     const auto near = boost::test_tools::tolerance(1e-9);
@@ -308,12 +309,13 @@ BOOST_AUTO_TEST_CASE(pins_in_space_bend_as_in_the_plane) {
     BOOST_TEST(std::abs(compliance(4, 0) - app::pin_tilt(scene, 1)) <= 1e-9 * compliance(4, 4));
     BOOST_TEST(std::abs(compliance(3, 1) + app::pin_tilt(scene, 1)) <= 1e-9 * compliance(4, 4));
   }
-  BOOST_TEST(!app::pin_stiffness_in_space(scene_of("planet_N_per_m = 1e9\n")).has_value());
+  BOOST_TEST(!app::pins_in_space(scene_of("planet_N_per_m = 1e9\n"), {0.3}, 0.1).has_value());
   // Under a moment in the middle each half of a clamped pin bends as a beam whose end turns and does not shift: in the
   // limit of a slender one 2 x 4 E I / (L / 2).
   const auto slender = scene_of("planet_N_per_m = 1e9\n" + pin("between_walls", 20, 400));
   const double bending = 206e9 * std::numbers::pi * std::pow(0.02, 4) / 64;
-  BOOST_TEST((*app::pin_stiffness_in_space(slender))(3, 3) == 16 * bending / 0.4, boost::test_tools::tolerance(0.02));
+  BOOST_TEST((*app::pins_in_space(slender, {0.3}, 0.1))(3, 3) == 16 * bending / 0.4,
+             boost::test_tools::tolerance(0.02));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -6,10 +6,12 @@
 #include <numbers>
 #include <string>
 
+#include "core/beam.h"
 #include "core/csv.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/units.h"
+#include "dynamics/spatial/carrier_structure.h"
 #include "tests/app/run_program.h"
 #include "tests/app/scene_refusal.h"
 #include "tests/app/scenes.h"
@@ -178,6 +180,37 @@ BOOST_AUTO_TEST_CASE(files_and_warnings) {
   BOOST_TEST(pair.err.find("planetary stages alone") != std::string::npos, pair.err);
 }
 
+BOOST_AUTO_TEST_CASE(degrees_of_freedom_in_the_plan) {
+  const test::TemporaryFolder folder("statics_7");
+  const auto plan_of = [&](const std::string& tables) {
+    write_file(folder.path() / "scene.toml",
+               test::replaced(test::replaced(test::replaced(test::replaced(helical_stage(), "mass_kg = 180\n",
+                                                                           "mass_kg = 180\ninertia_kg_m2 = 1\n"),
+                                                            "mass_kg = 110\n", "mass_kg = 110\ninertia_kg_m2 = 3\n"),
+                                             "mass_kg = 1500\n", "mass_kg = 1500\ninertia_kg_m2 = 45\n"),
+                              "mass_kg = 509\n", "mass_kg = 509\ninertia_kg_m2 = 153\n") +
+                   tables +
+                   "[supports]\nsun_N_per_m = \"floating\"\n[dynamics]\nhalf_backlash_um = 300\nmesh_damping_ratio = "
+                   "0.07\nsupport_damping_ratio = 0.03\n");
+    const auto outcome = test::run_program(folder.path(), "plan scene.toml --inputs");
+    BOOST_TEST(outcome.status == 0, outcome.err);
+    return outcome.out;
+  };
+  const auto says = [](const std::string& plan, const std::string& dof, const std::string& reason) {
+    const auto at = plan.find(dof);
+    BOOST_TEST_REQUIRE(at != std::string::npos, dof + " is not in: " + plan);
+    BOOST_TEST(plan.substr(at, plan.find('\n', at) - at).find(reason) != std::string::npos, dof + ": " + plan);
+  };
+  const auto plan = plan_of(in_space());
+  says(plan, "retained carrier x, y", "bearing 'upwind', 'downwind'");
+  says(plan, "retained carrier z", "bearing 'upwind'");
+  says(plan, "retained planet 1 ... 3 z", "bearing 'upwind row'");
+  says(plan, "retained sun tilts", "bearing 'spline'");
+  says(plan, "dropped  ring z, tilts", "no [[bearing]] holds it");
+  BOOST_TEST(plan.find("The lumped model is plane") == std::string::npos);
+  BOOST_TEST(plan_of("").find("The lumped model is plane") != std::string::npos);
+}
+
 // Planets and carrier on preloaded tapered rollers, the sun's shaft on balls: statics of the bodies.
 BOOST_AUTO_TEST_CASE(rolling_elements) {
   annulus::test::Verification record("A stage on tapered rollers and balls", "statics of its bodies");
@@ -232,6 +265,84 @@ BOOST_AUTO_TEST_CASE(rolling_elements) {
   BOOST_TEST(!bearings.at(number("spline")).contains("rolling_element_force_max_N"));
 }
 
+/// The stage on stiff bearings, whose carrier has webs.
+std::string stage_with_webs() {
+  return helical_stage() +
+         "[supports]\nsun_N_per_m = \"floating\"\nplanet_N_per_m = 2e9\nplanet_pin = \"between_walls\"\n"
+         "planet_pin_diameter_mm = 120\nplanet_pin_length_mm = 280\n" +
+         bearing("spline", "sun", "at_mm = 700\naxial_N_per_m = 3e8\ntilt_Nm_per_rad = 1e6\n") +
+         "[carrier_structure]\nwebs = 3\nweb_circle_diameter_mm = 660\nweb_length_mm = 300\nweb_width_mm = 160\n"
+         "web_depth_mm = 100\n";
+}
+
+// A carrier that winds up tilts the planets, the shaft on one side in the one sense and on the other side in the other.
+// The file of its stiffness, made from the beams, says the same as its webs.
+BOOST_AUTO_TEST_CASE(a_carrier_that_gives_way) {
+  annulus::test::Verification record("Carrier that gives way", "its stiffness as a file; frame of beams");
+  const test::TemporaryFolder folder("statics_6");
+  const auto about_radial = [&] {
+    const auto csv = table(folder, "bodies.csv");
+    return csv.rows.front().at(csv.column("planet1_about_x_urad"));
+  };
+  const auto rigid_webs = solved(folder, test::replaced(stage_with_webs(), "web_width_mm = 160\nweb_depth_mm = 100",
+                                                        "web_width_mm = 1e5\nweb_depth_mm = 1e5"));
+  const double straight = about_radial();
+  const auto other_side = solved(folder, stage_with_webs() + "shaft = \"+z\"\n");
+  const double leaning_back = about_radial();
+  const auto webs = solved(folder, stage_with_webs());
+  const double leaning = about_radial();
+  BOOST_TEST((leaning - straight) * (leaning_back - straight) < 0);
+  BOOST_TEST(std::abs(leaning - straight) > 10);  // urad
+  BOOST_TEST(result(webs, "ring_planet_static_face_load_factor") !=
+             result(rigid_webs, "ring_planet_static_face_load_factor"));
+  // The same carrier as a matrix in its own axes, with a rotation about the pins that bears nothing.
+  dynamics::TwoWallCarrier carrier;
+  for (int n = 0; n < 3; ++n) carrier.planet_angles.push_back(2 * pi * n / 3);
+  carrier.radius = 0.308;
+  carrier.pin = circular_beam(0.12, 206e9, 0.3);
+  carrier.pin_length = 0.28;
+  carrier.webs = 3;
+  carrier.web_radius = 0.33;
+  carrier.web_length = 0.3;
+  carrier.first_web = pi / 3;
+  carrier.web_width = 0.16;
+  carrier.web_depth = 0.1;
+  carrier.youngs_modulus = 206e9;
+  carrier.poisson_ratio = 0.3;
+  const auto stiffness = dynamics::pins_stiffness(carrier);
+  Eigen::MatrixXd axes = Eigen::MatrixXd::Zero(15, 18);  // own coordinates of every pin from those of the carrier
+  Csv csv;
+  for (int n = 0; n < 3; ++n) {
+    const double c = std::cos(carrier.planet_angles[n]), s = std::sin(carrier.planet_angles[n]);
+    axes.block<2, 2>(5 * n, 6 * n) << c, s, -s, c;
+    axes(5 * n + 2, 6 * n + 2) = 1;
+    axes.block<2, 2>(5 * n + 3, 6 * n + 3) << c, s, -s, c;
+    for (const auto* what : {"x_m", "y_m", "z_m", "about_x_rad", "about_y_rad", "about_z_rad"})
+      csv.columns.push_back(fmt::format("planet{}_{}", n + 1, what));
+  }
+  Eigen::MatrixXd all = axes.transpose() * stiffness * axes;
+  for (const int n : {5, 11, 17}) all(n, n) = 1e7;
+  for (Eigen::Index i = 0; i < 18; ++i) csv.rows.emplace_back(all.row(i).begin(), all.row(i).end());
+  csv.write(folder.path() / "carrier.csv");
+  auto scene = stage_with_webs();
+  scene =
+      scene.substr(0, scene.find("[carrier_structure]")) + "[carrier_structure]\nstiffness_file = \"carrier.csv\"\n";
+  scene = test::replaced(
+      scene, "planet_pin = \"between_walls\"\nplanet_pin_diameter_mm = 120\nplanet_pin_length_mm = 280\n", "");
+  const auto file = solved(folder, scene);
+  for (const auto* key : {"sun_planet_static_face_load_factor", "ring_planet_static_face_load_factor"})
+    record.close("face load factors", "", result(file, key), result(webs, key), 1e-7, "digits of the file");
+  record.close("tilt of a planet about the radial axis", "urad", about_radial(), leaning, 1e-7, "digits of the file");
+  const auto refused = [&](const std::string& content, const std::string& text) {
+    write_file(folder.path() / "carrier.csv", content);
+    const auto outcome = test::run_program(folder.path(), "check scene.toml");
+    BOOST_TEST(outcome.status == 2);
+    BOOST_TEST(outcome.err.find("carrier_structure.stiffness_file") != std::string::npos, outcome.err);
+    BOOST_TEST(outcome.err.find(text) != std::string::npos, outcome.err);
+  };
+  refused("planet1_x_m\n1\n", "3 planets have 5 or 6 coordinates each");
+}
+
 BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
   const auto expect_refusal = [](const std::string& tables, const std::string& words) {
     const auto refusal = test::scene_refusal(helical_stage() + tables);
@@ -265,6 +376,12 @@ BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
   expect_refusal(bearing("a", "carrier", rollers + "balls = 12\n"), "one kind of rolling elements");
   expect_refusal(bearing("a", "carrier", "balls = 12\nball_diameter_mm = 20\n"), "pitch_diameter_mm");
   expect_refusal(bearing("a", "carrier", rollers + "inner_groove_ratio = 0.55\n"), "rollers have no grooves");
+  expect_refusal("[carrier_structure]\nwebs = 3\n", "web_circle_diameter_mm");
+  expect_refusal("[carrier_structure]\nstiffness_file = \"none.csv\"\n", "there is no such file");
+  expect_refusal(
+      "[carrier_structure]\nwebs = 3\nweb_circle_diameter_mm = 660\nweb_length_mm = 300\nweb_width_mm = 160\n"
+      "web_depth_mm = 100\n",
+      "clamped in both walls");
   std::string rows = "[";
   for (int i = 0; i < 25; ++i) rows += std::string(i > 0 ? ", " : "") + (i % 6 == 0 ? "1e8" : i == 1 ? "1e7" : "0");
   expect_refusal(bearing("a", "carrier", "stiffness_5x5_N_m_rad = " + rows + "]\n"), "not symmetric");

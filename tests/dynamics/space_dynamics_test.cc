@@ -39,13 +39,14 @@ constexpr double pi = std::numbers::pi;
 // frame, holds, exact integrals along the face. Bearings with clearance bear at their working point what they do there.
 BOOST_AUTO_TEST_CASE(equilibrium_is_that_of_the_statics) {
   annulus::test::Verification record("Lumped stage in space", "statics of the mechanism");
-  enum class Case { linear, clearance, pins, partial };
+  enum class Case { linear, clearance, pins, carrier, partial };
   for (const auto& [which, helix, tolerance, origin] :
        {std::tuple{Case::linear, 7.5, 1e-8, "residual of the equilibria"},
         {Case::linear, -10.0, 1e-8, "residual of the equilibria"},
         {Case::linear, 0.0, 1e-8, "residual of the equilibria"},
         {Case::clearance, 7.5, 1e-7, "residual of the equilibria"},
         {Case::pins, 7.5, 1e-8, "residual of the equilibria"},
+        {Case::carrier, 7.5, 1e-8, "residual of the equilibria"},
         {Case::partial, 7.5, 5e-4, "places on the face"}}) {
     auto s = stages::reliability_stage(helix * units::deg);
     s.plane.carrier_speed = 0;  // loads of the housing act as they are
@@ -78,9 +79,10 @@ BOOST_AUTO_TEST_CASE(equilibrium_is_that_of_the_statics) {
       pin.diagonal() << 1e9, 1e9, 2e9, tilt, tilt;
       pin(0, 4) = pin(4, 0) = 2e7;
       pin(1, 3) = pin(3, 1) = -2e7;
-      s.pin = pin;
+      s.pins = stages::on_each_planet(s, pin);
       s.bearings[2].axial = rigid;
     }
+    if (which == Case::carrier) s.pins = pins_stiffness(stages::two_wall_carrier(s));
     const auto expected = statics(s).positions.front();
     const auto found = solved(lumped(s));
     double whole = 1;

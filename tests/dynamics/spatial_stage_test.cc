@@ -350,7 +350,7 @@ BOOST_AUTO_TEST_CASE(pins_bend_and_tilt) {
   compliance.diagonal() << shift, shift, reach, bend, bend;
   compliance(0, 4) = compliance(4, 0) = tilt;
   compliance(1, 3) = compliance(3, 1) = -tilt;
-  s.pin = compliance.inverse();
+  s.pins = stages::on_each_planet(s, compliance.inverse());
   for (int n = 0; n < 3; ++n)
     s.loads.push_back(
         {"radial", {Kind::planet, n}, StageFrame::planet, Vector3d::Zero(), {3e4, 0, 0}, Vector3d::Zero()});

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/units.h"
+#include "dynamics/spatial/carrier_structure.h"
 #include "dynamics/spatial/even_face.h"
 #include "dynamics/systems/planetary/spatial_stage.h"
 
@@ -37,6 +38,31 @@ inline StageBearing bearing(const std::string& name, StageBody body, StageBody o
   b.axial = axial;
   b.tilt = tilt;
   return b;
+}
+
+/// SpatialStage::pins of pins that do not act on each other.
+inline Eigen::MatrixXd on_each_planet(const SpatialStage& stage, const Eigen::Matrix<double, 5, 5>& pin) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(5 * stage.planets(), 5 * stage.planets());
+  for (Eigen::Index first = 0; first < all.rows(); first += 5) all.block<5, 5>(first, first) = pin;
+  return all;
+}
+
+/// A carrier of two walls 0.3 m apart, with a web between any two planets.
+inline TwoWallCarrier two_wall_carrier(const SpatialStage& stage) {
+  TwoWallCarrier carrier;
+  carrier.planet_angles = stage.plane.planet_angles;
+  carrier.radius = stage.plane.carrier.radius;
+  carrier.pin = circular_beam(0.12, 206e9, 0.3);
+  carrier.pin_length = 0.28;
+  carrier.webs = stage.planets();
+  carrier.web_radius = 0.33;
+  carrier.web_length = 0.3;
+  carrier.first_web = std::numbers::pi / stage.planets();
+  carrier.web_width = 0.16;
+  carrier.web_depth = 0.1;
+  carrier.youngs_modulus = 175e9;
+  carrier.poisson_ratio = 0.28;
+  return carrier;
 }
 
 /// After the stage of the Gearbox Reliability Collaborative: 21/39/99 teeth, normal module 10 mm, three planets, helix

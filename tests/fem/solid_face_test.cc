@@ -167,6 +167,22 @@ BOOST_AUTO_TEST_CASE(reduced_face_has_force_and_moment_of_the_gears) {
       }
       const auto state = law->at(even_approach(*law, low));
       const double tangent = state.tangent.topLeftCorner(law->size() - 1, law->size() - 1).sum();
+      BOOST_TEST_REQUIRE(shape.tilted != nullptr);
+      for (const double share : {0.5, -0.5}) {
+        const double tilt = share * nominal_load / tangent, g = shape.tilted->gap_slope[index];
+        const double mean = shape.tilted->slope[index] / 3,
+                     square = 1.0 / 3 + 2.0 / 15 * shape.tilted->curvature[index];
+        auto at = even_approach(*law, low);
+        for (Eigen::Index s = 0; s + 1 < at.size(); ++s)
+          at[s] += tilt * 2 * law->stations()[static_cast<std::size_t>(s)] / problem.face_width;
+        const auto exact = law->at(at);
+        double moment = 0;
+        for (Eigen::Index s = 0; s + 1 < at.size(); ++s)
+          moment += exact.force[s] * 2 * law->stations()[static_cast<std::size_t>(s)] / problem.face_width;
+        const double found = nominal_load * mean + tangent * (tilt * square - g * (square - mean * mean));
+        record.at_most("moment of the shape between tilts of half the approach, the same", "",
+                       std::abs(found - moment) / nominal_load, 1e-5, "bisection of the approach");
+      }
       for (const double share : {0.0, 0.05, -0.05}) {
         const double tilt = share * nominal_load / tangent;
         auto at = even_approach(*law, low);

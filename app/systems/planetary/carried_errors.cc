@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "app/model/table_errors.h"
-#include "app/systems/planetary/planet_coupling.h"
-#include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/planetary/alternative_stages.h"
 
 namespace annulus::app {
 
@@ -64,18 +63,22 @@ dynamics::PlanetaryStage with_moved_supports(dynamics::PlanetaryStage stage, int
   return stage;
 }
 
-/// Adds to the model's part of every error what changes from one stage to another.
-void add_change(const dynamics::PlanetaryStage& here, const dynamics::PlanetaryStage& there,
-                const dynamics::ComparisonOptions& way, FigureSet& figures) {
+/// Adds to the model's part of every error what changes from one stage to each of the others.
+void add_changes(const dynamics::PlanetaryStage& here, const std::vector<dynamics::PlanetaryStage>& others,
+                 const dynamics::ComparisonOptions& way, FigureSet& figures) {
+  if (others.empty()) return;
   const auto on = [&](const dynamics::PlanetaryStage& stage) {
     return evaluation_of(dynamics::simulate(stage, way.simulation)).figures;
   };
-  const auto before = on(here), after = on(there);
-  const auto known = figures;
-  for (const auto& entry : known.entries()) {
-    auto parts = entry.parts;
-    parts.model += std::abs(after.value(entry.key) - before.value(entry.key));
-    figures.set(entry.key, {entry.figure.value, parts.total()}, parts);
+  const auto before = on(here);
+  for (const auto& there : others) {
+    const auto after = on(there);
+    const auto known = figures;
+    for (const auto& entry : known.entries()) {
+      auto parts = entry.parts;
+      parts.model += std::abs(after.value(entry.key) - before.value(entry.key));
+      figures.set(entry.key, {entry.figure.value, parts.total()}, parts);
+    }
   }
 }
 
@@ -91,11 +94,10 @@ ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::Si
       },
       way);
   const auto stage = tables.make(tables.sun_mesh, tables.ring_mesh);
+  auto others = alternative_stages(stage, tables.sun_mesh, tables.ring_mesh);
   if (on_back_flanks(nominal.ring_planet, tables.ring_mesh))
-    add_change(stage, with_moved_supports(stage, tables.ring_mesh.table.positions()), way, found);
-  if (const auto coupled = with_omitted_coupling(stage, tables.ring_mesh)) add_change(stage, *coupled, way, found);
-  if (const auto other = with_deviating_coupling(stage, tables.sun_mesh, tables.ring_mesh))
-    add_change(stage, *other, way, found);
+    others.push_back(with_moved_supports(stage, tables.ring_mesh.table.positions()));
+  add_changes(stage, others, way, found);
   ResponseErrors errors;
   for_each_figure(nominal, errors,
                   [&](const std::string& key, const Figure&, ErrorParts& parts) { parts = found.find(key)->parts; });

@@ -1,15 +1,15 @@
 #include "app/systems/planetary/planetary_plan.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
+#include <utility>
 
 #include "app/model/stiff_supports.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/ring_structures.h"
-#include "app/systems/planetary/space_input.h"
-#include "app/systems/planetary/space_stage.h"
+#include "app/systems/planetary/space_dynamics.h"
+#include "app/systems/planetary/space_plan.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "core/units.h"
 
@@ -130,19 +130,6 @@ void add_axial_force(std::vector<std::string>& list, const Scene& scene, const G
       ring.name, to_text(of_mesh / 1e3, 3), structure.words().supports));
 }
 
-/// Which degrees of freedom annulus statics has, and why.
-void add_statics(std::vector<std::string>& list, const Scene& scene, const GearGeometry& geometry) {
-  if (!scene.own<SpaceInput>().any() && scene.stage.helix_angle == 0) return;
-  const auto reasons = spatial_frame(scene, geometry, 0).reasons_for_space();
-  if (reasons.empty())
-    list.emplace_back(
-        "annulus statics: no body moves along the axis or tilts. The teeth are spur, and faces, bearings and loads are "
-        "symmetric about the middle of the face.");
-  else
-    list.push_back(fmt::format("annulus statics: bodies also move along the axis and tilt, because {}.",
-                               fmt::join(reasons, "; ")));
-}
-
 std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometry, bool computed,
                                  bool sun_mesh_computed) {
   std::vector<std::string> list;
@@ -171,7 +158,7 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
       add_axial_force(list, scene, geometry, ring);
     }
   }
-  add_statics(list, scene, geometry);
+  if (auto remark = remark_on_statics(scene, geometry); !remark.empty()) list.push_back(std::move(remark));
   if (!scene.dynamics) {
     list.emplace_back("No [dynamics]: meshes, transmission error and stiffness only.");
     return list;
@@ -186,7 +173,7 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
                     "linear stiffness: the changing stiffness while they pass under the load is left out. The natural "
                     "frequencies are those of small motions about the mean load.",
                     to_text(scene.supports.planet_clearance / units::um, 4)));
-  if (scene.stage.helix_angle != 0)
+  if (scene.stage.helix_angle != 0 && !moves_in_space(scene))
     list.emplace_back(
         "The lumped model is plane. It contains the transverse forces of helical teeth; their axial forces and tilting "
         "moments are neglected.");
@@ -223,7 +210,7 @@ void describe_planetary(const Scene& scene, const GearGeometry& geometry, Plan& 
   plan.quantities = stage_quantities(scene, geometry);
   for (const auto& ring : geometry.rings) plan.rings.emplace_back(ring.name, ring_quantities(ring));
   if (scene.dynamics) {
-    plan.dofs = dofs(scene);
+    plan.dofs = dofs_in_space(scene, geometry, dofs(scene));
     plan.motion = motion_decisions(scene, plan.meshes);
   }
   plan.remarks = remarks(scene, geometry, plan.computes(), plan.meshes.front().computed());

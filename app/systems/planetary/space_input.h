@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/spatial/carrier_structure.h"
 #include "dynamics/systems/planetary/spatial_stage.h"
 
 namespace annulus::app {
@@ -48,6 +49,15 @@ struct GravityInput {
   double sun = 0, planet = 0, ring = 0, carrier = 0;  ///< m, centres of mass on the axes
 };
 
+/// Webs between two walls, or a matrix in a file.
+struct CarrierStructureInput {
+  std::optional<int> webs;
+  std::optional<double> web_circle, web_length, web_width, web_depth, first_web;
+  dynamics::Side shaft = dynamics::Side::low;
+  std::optional<std::string> file;
+  Eigen::MatrixXd stiffness{};  ///< that of the file: read_carrier_stiffness()
+};
+
 struct TiltInertiaInput {
   std::optional<double> sun, ring, carrier, planet;
 };
@@ -62,10 +72,11 @@ struct SpaceInput {
   std::vector<BearingInput> bearings;
   std::vector<LoadInput> loads;
   std::optional<GravityInput> gravity;
+  std::optional<CarrierStructureInput> carrier_structure;
   TiltInertiaInput tilt_inertia;
   StaticsInput statics;
 
-  [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity.has_value(); }
+  [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity || carrier_structure; }
 };
 
 }  // namespace annulus::app

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/model/excitation.h"
+#include "app/systems/planetary/carrier_pins.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/space_input.h"
 #include "app/systems/planetary/stage_response.h"
@@ -235,7 +236,7 @@ dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geo
   stage.plane = stage_kinematics(scene, geometry, ring);
   auto& plane = stage.plane;
   const auto& supports = scene.supports;
-  stage.pin = pin_stiffness_in_space(scene);
+  stage.pins = pins_in_space(scene, plane.planet_angles, plane.carrier.radius);
   plane.sun.support = supports.sun;
   plane.ring.support = supports.ring;
   plane.carrier.support = supports.carrier;
@@ -262,9 +263,14 @@ dynamics::StageSpace::Face motion_face(const geometry::GearPair& pair, const Mes
   face.width = pair.common_face().width;
   face.middle = place_of_face(pair);
   if (mesh.face) {
-    auto shape = std::make_shared<FaceShape>(*mesh.face);
-    for (double& gap : shape->gap_slope) gap /= c;
-    face.shape = std::move(shape);
+    // Of the transverse section.
+    const auto transverse = [c](FaceShape shape) {
+      for (double& gap : shape.gap_slope) gap /= c;
+      return shape;
+    };
+    auto shape = transverse(*mesh.face);
+    if (shape.tilted) shape.tilted = std::make_shared<const FaceShape>(transverse(*shape.tilted));
+    face.shape = std::make_shared<const FaceShape>(std::move(shape));
   }
   if (gaps_in_table(input)) return face;
   std::vector<double> places;

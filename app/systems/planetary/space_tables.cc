@@ -9,6 +9,8 @@
 
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_declare.h"
+#include "app/scene/scene_files.h"
+#include "app/systems/planetary/carrier_pins.h"
 #include "app/systems/planetary/space_input.h"
 #include "core/errors.h"
 #include "core/units.h"
@@ -250,6 +252,46 @@ Table gravity_table() {
   return gravity.done();
 }
 
+Table carrier_structure_table() {
+  Declarations<CarrierStructureInput> structure(
+      "carrier_structure",
+      "What the carrier gives way, beside the pins: webs between two rigid walls, in which the pins are clamped, or a "
+      "stiffness matrix. The wall with the shaft is the body of the carrier; the other one winds up against it.",
+      [](Scene& s, std::size_t) -> CarrierStructureInput& {
+        auto& c = s.own<SpaceInput>().carrier_structure;
+        return c ? *c : c.emplace();
+      });
+  structure.on_request();
+  structure
+      .key("stiffness_file", &CarrierStructureInput::file,
+           "File (CSV) with the stiffness of pins and carrier in the middles of the planets, the shaft held "
+           "(docs/exchange.md), such as a reduced finite-element model has. The path is relative to the scene.")
+      .absent("webs");
+  structure.key("webs", &CarrierStructureInput::webs, "Number of webs, evenly spaced.")
+      .from(2, 50)
+      .one_of({"stiffness_file"});
+  const auto webs = given("webs");
+  const auto length = [&](const char* key, std::optional<double> CarrierStructureInput::*member, const char* meaning) {
+    structure.key(key, member, meaning).above(0, furthest_mm).needed_if(webs);
+  };
+  length("web_circle_diameter_mm", &CarrierStructureInput::web_circle, "Diameter of the circle of their centres.");
+  length("web_length_mm", &CarrierStructureInput::web_length, "Their length, from wall to wall.");
+  length("web_width_mm", &CarrierStructureInput::web_width, "Their tangential width.");
+  length("web_depth_mm", &CarrierStructureInput::web_depth, "Their radial depth.");
+  structure
+      .key("first_web_deg", &CarrierStructureInput::first_web,
+           "Place of the first web, counter-clockwise from planet 1.")
+      .from(-360, 360)
+      .only_if(webs, "a matrix has no webs")
+      .absent("half-way to planet 2");
+  structure
+      .choice("shaft", &CarrierStructureInput::shaft, {{"-z", dynamics::Side::low}, {"+z", dynamics::Side::high}},
+              "The side of the wall that has the shaft.")
+      .only_if(webs, "in a matrix the shaft is held")
+      .fallback("-z", "the torque enters there");
+  return structure.done();
+}
+
 Table tilt_inertia_table() {
   Declarations<TiltInertiaInput> tilting(
       "tilt_inertia", "Moments of inertia about an axis across the body's own, through the middle of the face.",
@@ -300,6 +342,7 @@ class SpaceChecks : KeyChecks {
     names("load.name", space.loads);
     for (std::size_t i = 0; i < space.bearings.size(); ++i) bearing(i, space.bearings[i]);
     for (std::size_t i = 0; i < space.loads.size(); ++i) load(i, space.loads[i]);
+    if (auto& structure = scene_.own<SpaceInput>().carrier_structure) carrier(*structure);
   }
 
  private:
@@ -375,6 +418,29 @@ class SpaceChecks : KeyChecks {
     }
   }
 
+  void carrier(CarrierStructureInput& structure) {
+    const auto& s = scene_.supports;
+    if (structure.webs && usable("carrier_structure.webs") && usable("supports.planet_pin")) {
+      if (s.planet_pin != PinMounting::between_walls)
+        return problem("carrier_structure.webs",
+                       "needs pins that are clamped in both walls: use supports.planet_pin = \"between_walls\"");
+      const auto* key = "carrier_structure.web_length_mm";
+      if (s.pin_length && structure.web_length && usable(key) && *structure.web_length > 2 * *s.pin_length)
+        problem(key, fmt::format("is more than twice the length of the pins between the same walls, {:g} mm",
+                                 *s.pin_length / units::mm));
+    }
+    if (!structure.file || !usable("carrier_structure.stiffness_file")) return;
+    if (s.planet_pin != PinMounting::unbending && usable("supports.planet_pin"))
+      return problem("carrier_structure.stiffness_file",
+                     "contains the pins: leave out supports.planet_pin and its sizes");
+    if (!usable("stage.planets")) return;
+    try {
+      structure.stiffness = read_carrier_stiffness(file_below_scene(scene_, *structure.file), scene_.stage.planets);
+    } catch (const InputError& error) {
+      problem("carrier_structure.stiffness_file", error.what());
+    }
+  }
+
   void row(std::size_t i, const BearingInput& b) {
     const auto diameter = b.balls ? b.ball_diameter : b.roller_diameter;
     const bool inclined = b.balls || b.contact_angle != 0;
@@ -419,7 +485,8 @@ void reverse(std::vector<double>& list, std::initializer_list<std::size_t> which
 }  // namespace
 
 std::vector<Table> space_tables() {
-  return {bearing_table(), load_table(), gravity_table(), tilt_inertia_table(), statics_table()};
+  return {bearing_table(),           load_table(),         gravity_table(),
+          carrier_structure_table(), tilt_inertia_table(), statics_table()};
 }
 
 void check_space(Scene& scene, std::vector<Problem>& problems) { SpaceChecks(scene, problems).run(); }
@@ -430,6 +497,13 @@ void mirror_space(Scene& scene) {
     if (b.matrix.size() != 25) continue;
     constexpr double sign[] = {1, -1, 1, -1, 1};
     for (std::size_t i = 0; i < 25; ++i) b.matrix[i] *= sign[i / 5] * sign[i % 5];
+  }
+  if (auto& structure = space.carrier_structure) {
+    if (structure->webs) structure->first_web = -structure->first_web.value_or(M_PI / scene.stage.planets);
+    constexpr int sign[] = {1, -1, 1, -1, 1};
+    for (Eigen::Index i = 0; i < structure->stiffness.rows(); ++i)
+      for (Eigen::Index j = 0; j < structure->stiffness.cols(); ++j)
+        structure->stiffness(i, j) *= sign[i % 5] * sign[j % 5];
   }
   for (auto& l : space.loads) {
     reverse(l.point, {1});

@@ -7,8 +7,7 @@
 
 #include "app/model/time_series.h"
 #include "app/results/content_id.h"
-#include "app/systems/planetary/planet_coupling.h"
-#include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/planetary/alternative_stages.h"
 #include "core/errors.h"
 #include "core/file_guard.h"
 #include "core/files.h"
@@ -124,9 +123,8 @@ void check_power(const dynamics::PlanetaryStage& stage, const dynamics::DynamicR
 StageModes modes_of(const dynamics::PlanetaryStage& stage, const StageTables& tables) {
   try {
     auto modes = stage_modes(stage, stiffness_errors(tables.sun_mesh, tables.ring_mesh));
-    if (const auto coupled = with_omitted_coupling(stage, tables.ring_mesh)) add_model_change(modes, *coupled);
-    if (const auto other = with_deviating_coupling(stage, tables.sun_mesh, tables.ring_mesh))
-      add_model_change(modes, *other);
+    for (const auto& other : alternative_stages(stage, tables.sun_mesh, tables.ring_mesh))
+      add_model_change(modes, other);
     return modes;
   } catch (const SolverError& error) {
     if (!stage.ring_coupling || stage.ring_coupling->modes.empty()) throw;

@@ -1,10 +1,8 @@
 #include "app/systems/planetary/stage_supports.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "app/model/stiff_supports.h"
-#include "core/circular_beam.h"
 
 namespace annulus::app {
 
@@ -18,13 +16,10 @@ double torsional_support(const Scene& scene, StageMember member) {
   return given.value_or(scene.stage.held == member ? rigid : 0);
 }
 
-namespace {
-
-CircularBeam pin_of(const Scene& scene) {
-  return {scene.supports.pin_diameter.value_or(0), scene.material.youngs_modulus, scene.material.poisson_ratio};
+Beam pin_of(const Scene& scene) {
+  return circular_beam(scene.supports.pin_diameter.value_or(0), scene.material.youngs_modulus,
+                       scene.material.poisson_ratio);
 }
-
-}  // namespace
 
 double pin_stiffness(const Scene& scene) {
   const double length = scene.supports.pin_length.value_or(0);
@@ -39,31 +34,6 @@ double pin_stiffness(const Scene& scene) {
       return 1 / pin_of(scene).parallel_shift(length);
   }
   return rigid;
-}
-
-std::optional<Eigen::Matrix<double, 5, 5>> pin_stiffness_in_space(const Scene& scene) {
-  if (scene.supports.planet_pin == PinMounting::unbending) return std::nullopt;
-  const auto beam = pin_of(scene);
-  const double length = scene.supports.pin_length.value_or(0);
-  const bool walls = scene.supports.planet_pin == PinMounting::between_walls;
-  // Along and about one transverse axis: shift, tilt and what couples them.
-  Eigen::Matrix2d bends;
-  if (walls)
-    bends << 1 / pin_stiffness(scene), 0, 0, 1 / (2 * beam.clamped_turn(length / 2));
-  else if (scene.supports.planet_pin == PinMounting::flexpin)
-    bends << beam.parallel_shift(length), 0, 0, beam.cantilever_bend(length);
-  else
-    bends << beam.cantilever(length), beam.cantilever_tilt(length), beam.cantilever_tilt(length),
-        beam.cantilever_bend(length);
-  const Eigen::Matrix2d stiffness = bends.inverse();
-  Eigen::Matrix<double, 5, 5> all = Eigen::Matrix<double, 5, 5>::Zero();
-  all(0, 0) = all(1, 1) = stiffness(0, 0);
-  all(3, 3) = all(4, 4) = stiffness(1, 1);
-  // A pin that comes from the wall at -z turns about +y where it bends along +x, about -x where it bends along +y.
-  all(0, 4) = all(4, 0) = stiffness(0, 1);
-  all(1, 3) = all(3, 1) = -stiffness(0, 1);
-  all(2, 2) = walls ? 2 * beam.stretch(length / 2) : beam.stretch(length);
-  return all;
 }
 
 double pin_tilt(const Scene& scene, double force) {

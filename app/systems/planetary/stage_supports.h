@@ -1,9 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <optional>
-
 #include "app/scene/scene.h"
+#include "core/beam.h"
 #include "core/radial_bearing.h"
 #include "geometry/planetary.h"
 #include "geometry/power_flow.h"
@@ -16,10 +14,8 @@ namespace annulus::app {
 
 /// N/m, of the pin of each planet: a beam of the material of [material].
 [[nodiscard]] double pin_stiffness(const Scene& scene);
-/// The same in space, at the middle of the planet and in its frame: forces along x, y, z and moments about x, y over
-/// displacements and tilts. The wall of cantilevers and flexpins stands on the side of -z. Nothing for pins that do not
-/// bend.
-[[nodiscard]] std::optional<Eigen::Matrix<double, 5, 5>> pin_stiffness_in_space(const Scene& scene);
+/// The beam it is.
+[[nodiscard]] Beam pin_of(const Scene& scene);
 /// rad, by which a cantilevered pin tilts under a force (N) on the planet; 0 of others.
 [[nodiscard]] double pin_tilt(const Scene& scene, double force);
 

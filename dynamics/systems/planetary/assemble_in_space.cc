@@ -126,6 +126,7 @@ class SpaceBodies {
     for (const auto kind : {Kind::sun, Kind::ring, Kind::carrier}) add_body({kind});
     for (int n = 0; n < stage_.planets(); ++n) add_body({Kind::planet, n});
     for (const auto& bearing : stage_.space->bearings) add_spring(bearing);
+    if (whole_seats()) add_seats();
     for (const auto& load : stage_.space->loads) add_load(load);
     for (const auto& load : stage_.space->standing_loads) add_load(load);
     add_dampers();
@@ -204,10 +205,28 @@ class SpaceBodies {
       builder_.add_load(coordinate, -force[i]);
       builder_.add_harmonic_load(coordinate, stage_.carrier_speed, -standing[i], -later[i]);
     }
+    if (whole_seats() && stands_on_carrier(bearing)) return;  // add_seats()
     const std::string name = bearing.element();
     for (const auto& [stiffness, form] :
          squares(moved_along_axis(bearing.stiffness, bearing.place), d, data_of(stage_, bearing.body).radius))
       builder_.add_spring(form, stiffness, 0, name);
+  }
+
+  /// Do planets act on each other through the carrier?
+  [[nodiscard]] bool whole_seats() const { return stage_.space->between_planets.size() > 0; }
+
+  /// The coordinates of all planets against the carrier.
+  [[nodiscard]] Forms against_carrier() const {
+    Forms all;
+    for (int n = 0; n < stage_.planets(); ++n)
+      for (auto& form : relative_motion(stage_, forms_, {Kind::planet, n}, {Kind::carrier})) all.push_back(form);
+    return all;
+  }
+
+  void add_seats() {
+    for (const auto& [stiffness, form] :
+         squares(seats_of_planets(*stage_.space), against_carrier(), stage_.planet.radius))
+      builder_.add_spring(form, stiffness, 0, "planet_bearing");
   }
 
   /// The coordinates of a body on which forces and moments do work.
@@ -234,17 +253,18 @@ class SpaceBodies {
     LinearForm form;
   };
   /// A symmetric matrix over coordinates d as sum of value x form^2. `length`: m, by which tilts are compared.
-  static std::vector<Square> squares(const Stiffness& matrix, const Forms& d, double length) {
-    Vector unit = Vector::Ones();
-    unit.tail<2>().setConstant(1 / length);
-    const Eigen::SelfAdjointEigenSolver<Stiffness> solver(unit.asDiagonal() * matrix * unit.asDiagonal());
+  /// Five coordinates per body, the last two tilts.
+  static std::vector<Square> squares(const Eigen::MatrixXd& matrix, const Forms& d, double length) {
+    Eigen::VectorXd unit(matrix.rows());
+    for (Eigen::Index i = 0; i < unit.size(); ++i) unit[i] = i % 5 < 3 ? 1 : 1 / length;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(unit.asDiagonal() * matrix * unit.asDiagonal());
     std::vector<Square> list;
     constexpr double rounding = 1e-13;
     const double least = rounding * solver.eigenvalues().cwiseAbs().maxCoeff();
-    for (Eigen::Index k = 0; k < 5; ++k) {
+    for (Eigen::Index k = 0; k < unit.size(); ++k) {
       if (std::abs(solver.eigenvalues()[k]) <= least) continue;
       Square square{solver.eigenvalues()[k], {}};
-      for (Eigen::Index i = 0; i < 5; ++i)
+      for (Eigen::Index i = 0; i < unit.size(); ++i)
         if (const double factor = solver.eigenvectors()(i, k) / unit[i]; factor != 0)
           square.form = square.form + factor * d[static_cast<std::size_t>(i)];
       list.push_back(std::move(square));
@@ -260,17 +280,12 @@ class SpaceBodies {
       const auto& first = bearings[i];
       const auto same = [&](const auto& b) { return b.body == first.body && b.on == first.on; };
       if (std::any_of(bearings.begin(), bearings.begin() + static_cast<std::ptrdiff_t>(i), same)) continue;
+      if (whole_seats() && stands_on_carrier(first)) continue;
       Stiffness sum = Stiffness::Zero();
       for (const auto& b : bearings)
         if (same(b)) sum += moved_along_axis(b.stiffness, b.place);
       const BodyData data = data_of(stage_, first.body);
-      Vector root;
-      root << Eigen::Vector3d::Constant(std::sqrt(data.mass)), Eigen::Vector2d::Constant(std::sqrt(data.tilt_inertia));
-      const Vector inverse = root.cwiseInverse();
-      const Eigen::SelfAdjointEigenSolver<Stiffness> solver(inverse.asDiagonal() * sum * inverse.asDiagonal());
-      const Stiffness rates = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
-                              solver.eigenvectors().transpose();
-      const Stiffness damping = 2 * stage_.support_damping_ratio * root.asDiagonal() * rates * root.asDiagonal();
+      const Eigen::MatrixXd damping = damping_of(sum, data);
       const auto d = relative_motion(stage_, forms_, first.body, first.on);
       // In the housing the turning frame adds Omega x (-y, x).
       const Forms turned{(-1.0) * d[1], d[0], {}, (-1.0) * d[4], d[3]};
@@ -283,6 +298,23 @@ class SpaceBodies {
             builder_.add_circulatory(d[static_cast<std::size_t>(r)], turned[static_cast<std::size_t>(c)],
                                      damping(r, c) * speed_);
     }
+    if (whole_seats())
+      for (const auto& [value, form] :
+           squares(damping_of(seats_of_planets(*stage_.space), data_of(stage_, {Kind::planet, 0})), against_carrier(),
+                   stage_.planet.radius))
+        builder_.add_spring(form, 0, value, "planet_dampers");
+  }
+
+  /// Of equal bodies, five coordinates each.
+  [[nodiscard]] Eigen::MatrixXd damping_of(const Eigen::MatrixXd& stiffness, const BodyData& data) const {
+    Eigen::VectorXd root(stiffness.rows());
+    for (Eigen::Index i = 0; i < root.size(); ++i) root[i] = std::sqrt(i % 5 < 3 ? data.mass : data.tilt_inertia);
+    const Eigen::VectorXd inverse = root.cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * stiffness *
+                                                                inverse.asDiagonal());
+    const Eigen::MatrixXd rates = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
+                                  solver.eigenvectors().transpose();
+    return 2 * stage_.support_damping_ratio * root.asDiagonal() * rates * root.asDiagonal();
   }
 
   LumpedSystemBuilder& builder_;

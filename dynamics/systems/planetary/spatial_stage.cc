@@ -46,11 +46,14 @@ bool mirrors(const StageBearing& a, const StageBearing& b) {
          a.play == b.play && a.load_zone == b.load_zone && a.row == mirrored(b.row) && a.distance == b.distance &&
          a.force == b.force && !a.matrix && !b.matrix;
 }
-/// Does a displacement in the plane call for no axial force and no tilting moment?
-bool keeps_plane(const Eigen::Matrix<double, 5, 5>& k) {
-  for (const int in_plane : {0, 1})
-    for (const int out : {2, 3, 4})
-      if (k(in_plane, out) != 0 || k(out, in_plane) != 0) return false;
+/// Does a displacement in the plane call for no axial force and no tilting moment? Five coordinates per body; rounding
+/// counts as nothing.
+bool keeps_plane(const Eigen::MatrixXd& k) {
+  constexpr double rounding = 1e-12;
+  for (Eigen::Index in = 0; in < k.rows(); ++in)
+    for (Eigen::Index out = 0; out < k.cols(); ++out)
+      if (in % 5 < 2 && out % 5 >= 2 && std::abs(k(in, out)) > rounding * std::sqrt(k(in, in) * k(out, out)))
+        return false;
   return true;
 }
 
@@ -73,14 +76,13 @@ class Assembly {
     for (const auto kind : central_bodies) mechanism().add_body({name_of_body({kind}), Vector3d::Zero(), space_});
     for (int n = 0; n < stage_.planets(); ++n)
       mechanism().add_body({name_of_body({Kind::planet, n}), centre_of(stage_, {Kind::planet, n}), space_});
-    if (stage_.pin)
+    if (stage_.pins)
       for (int n = 0; n < stage_.planets(); ++n)
         mechanism().add_body({name_of_body({Kind::pin, n}), centre_of(stage_, {Kind::pin, n}), space_});
     for (const auto& bearing : stage_.bearings) add_bearing(bearing);
     for (const auto kind : central_bodies) add_support({kind});
     for (int n = 0; n < stage_.planets(); ++n) add_support({Kind::planet, n});
-    if (stage_.pin)
-      for (int n = 0; n < stage_.planets(); ++n) add_pin(n);
+    if (stage_.pins) add_pins();
     add_rotations();
     for (int n = 0; n < stage_.planets(); ++n) result_.meshes.push_back(add_mesh(true, n));
     for (int n = 0; n < stage_.planets(); ++n) result_.meshes.push_back(add_mesh(false, n));
@@ -95,7 +97,7 @@ class Assembly {
 
   /// What a bearing stands on: those of planets on pins, where there are pins.
   [[nodiscard]] int seat_of(const StageBearing& b) const {
-    const bool on_pin = stage_.pin && b.body.kind == Kind::planet && b.on.kind == Kind::carrier;
+    const bool on_pin = stage_.pins && b.body.kind == Kind::planet && b.on.kind == Kind::carrier;
     return number(on_pin ? StageBody{Kind::pin, b.body.planet} : b.on);
   }
 
@@ -201,17 +203,36 @@ class Assembly {
     add_bearing(b);
   }
 
-  /// A pin on the carrier; it does not turn in it.
-  void add_pin(int n) {
-    StageBearing b;
-    b.body = {Kind::pin, n};
-    b.on = {Kind::carrier};
-    b.frame = StageFrame::planet;
-    b.name = name_of_body(b.body);
-    b.matrix = stage_.pin;
-    add_bearing(b);
-    mechanism().hold(fmt::format("the rotation of {}", b.name),
-                     mechanism().rotation(number(b.body), number(b.on), Vector3d::UnitZ()));
+  /// The pins on the carrier, in which they do not turn: one element, as they act on each other through its structure.
+  void add_pins() {
+    const int each = space_ ? 5 : 2, planets = stage_.planets();
+    Eigen::MatrixXd measures(each * planets, 6 * static_cast<Eigen::Index>(mechanism().bodies()));
+    Eigen::MatrixXd stiffness(each * planets, each * planets);
+    for (int i = 0; i < each * planets; ++i)
+      for (int j = 0; j < each * planets; ++j)
+        stiffness(i, j) = (*stage_.pins)(5 * (i / each) + i % each, 5 * (j / each) + j % each);
+    std::vector<StageMechanism::Bearing> made;
+    for (int n = 0; n < planets; ++n) {
+      StageBearing b;
+      b.body = {Kind::pin, n};
+      b.on = {Kind::carrier};
+      b.frame = StageFrame::planet;
+      b.name = name_of_body(b.body);
+      auto& pin = made.emplace_back(
+          StageMechanism::Bearing{b.name, b.body, b.on, b.frame, 0, frame_axes(stage_, b.frame, b.body, time_)});
+      for (int i = 0; i < each; ++i) {
+        measures.row(each * n + i) = measure(b, pin.axes, i);
+        pin.coordinate.at(static_cast<std::size_t>(i)) = each * n + i;
+      }
+      mechanism().hold(fmt::format("the rotation of {}", b.name),
+                       mechanism().rotation(number(b.body), number(b.on), Vector3d::UnitZ()));
+    }
+    const int element = mechanism().add_element("pins", measures, std::make_shared<LinearLaw>(stiffness),
+                                                Eigen::VectorXd::Zero(measures.rows()));
+    for (auto& pin : made) {
+      std::fill_n(pin.element.begin(), each, element);
+      result_.bearings.push_back(std::move(pin));
+    }
   }
 
   /// The angle of the carrier is that of the position; what the ring's torsional support gives way is elastic.
@@ -391,7 +412,7 @@ std::vector<std::string> SpatialStage::reasons_for_space() const {
       if (weight.place != 0)
         reasons.push_back(
             fmt::format("the weight of the {} acts beside the middle of the face", name_of_body(weight.body)));
-  if (pin && !keeps_plane(*pin)) reasons.emplace_back("the pins tilt as they bend");
+  if (pins && !keeps_plane(*pins)) reasons.emplace_back("pins or carrier tilt the planets as they give way");
   for (const auto& b : bearings) {
     const bool paired =
         b.matrix ? b.place == 0 && keeps_plane(*b.matrix)

@@ -88,9 +88,10 @@ struct SpatialStage {
   double base_helix_angle = 0;                                           ///< rad, signed: > 0 for right-handed planets
   double planet_working_radius_sun = 0, planet_working_radius_ring = 0;  ///< m, of the pitch points from planet axes
   StageFace sun_face, ring_face;
-  /// Stiffness of each pin on the carrier, at the planet's middle and in its frame (StageBearing::matrix); bearings of
-  /// planets then stand on the pins. Absent: pins are part of the carrier.
-  std::optional<Eigen::Matrix<double, 5, 5>> pin{};
+  /// Stiffness of the pins on the carrier and of its structure, at the planets' middles and in their frames: x, y, z,
+  /// about x, about y of planet 0, then of planet 1 ... Bearings of planets then stand on the pins. Absent: pins are
+  /// part of a rigid carrier.
+  std::optional<Eigen::MatrixXd> pins{};
   std::vector<StageBearing> bearings;
   std::vector<StageLoad> loads;
   std::vector<StageWeight> weights;

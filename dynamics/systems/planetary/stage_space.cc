@@ -19,6 +19,20 @@ std::string name_of_body(const StageBody& body) {
   return names[static_cast<std::size_t>(body.kind)];
 }
 
+bool stands_on_carrier(const LinearBearing& bearing) {
+  return bearing.body.kind == StageBody::Kind::planet && bearing.on.kind == StageBody::Kind::carrier;
+}
+
+Eigen::MatrixXd seats_of_planets(const StageSpace& space) {
+  Eigen::MatrixXd all = space.between_planets;
+  for (const auto& b : space.bearings)
+    if (stands_on_carrier(b)) {
+      const Eigen::Index first = 5 * static_cast<Eigen::Index>(b.body.planet);
+      all.block<5, 5>(first, first) += b.stiffness;
+    }
+  return all;
+}
+
 std::string LinearBearing::element() const {
   auto result = name_of_body(body) + "_" + name;
   std::replace(result.begin(), result.end(), ' ', '_');
@@ -63,6 +77,25 @@ void StageSpace::check(int planets) const {
           "bearing '{}' has a force that stands in the housing, but is not in it, or acts along the axis", b.name));
     if (b.on.kind == StageBody::Kind::planet || b.body.kind == StageBody::Kind::housing)
       throw InputError(fmt::format("bearing '{}' supports the housing or stands on a planet", b.name));
+  }
+  if (between_planets.size() > 0) {
+    const Eigen::Index size = 5 * static_cast<Eigen::Index>(planets);
+    if (between_planets.rows() != size || between_planets.cols() != size || !between_planets.allFinite())
+      throw InputError(fmt::format("the stiffness between {} planets has {} x {} finite entries, not {} x {}", planets,
+                                   between_planets.rows(), between_planets.cols(), size, size));
+    std::vector<int> seats(static_cast<std::size_t>(planets));
+    for (const auto& b : bearings)
+      if (stands_on_carrier(b)) {
+        ++seats[static_cast<std::size_t>(b.body.planet)];
+        if (b.place != 0 || std::find(b.rigid.begin(), b.rigid.end(), true) != b.rigid.end())
+          throw InputError(fmt::format(
+              "bearing '{}' of a planet on a carrier that gives way is rigid or at z = {} m, not in the middle", b.name,
+              b.place));
+      }
+    for (std::size_t n = 0; n < seats.size(); ++n)
+      if (seats[n] != 1)
+        throw InputError(
+            fmt::format("planet {} has {} bearings on a carrier that gives way; it has one", n + 1, seats[n]));
   }
   const auto check_load = [&](const StageBody& body, bool finite) {
     check_body(body, "a load");

@@ -29,6 +29,9 @@ struct LinearBearing {
   [[nodiscard]] std::string element() const;
 };
 
+/// Whether it holds a planet on the carrier.
+[[nodiscard]] bool stands_on_carrier(const LinearBearing& bearing);
+
 /// Force (N) in the middle of the face and moment (N m) on a body, in its axes.
 struct SpaceLoad {
   StageBody body;
@@ -61,6 +64,10 @@ struct StageSpace {
   };
   TiltInertia tilt_inertia;
   std::vector<LinearBearing> bearings;
+  /// Of a carrier that gives way: stiffness between the coordinates of different planets against it, each in its axes
+  /// and its middle, 5 per planet. Every planet then has one bearing on the carrier, in its middle, which contains the
+  /// stiffness of its own coordinates; their blocks are zero here. Empty: planets act on each other through no carrier.
+  Eigen::MatrixXd between_planets{};
   std::vector<SpaceLoad> loads;
   std::vector<StandingLoad> standing_loads{};
 
@@ -69,6 +76,10 @@ struct StageSpace {
   /// Throws InputError with name and value of the quantity that cannot be used.
   void check(int planets) const;
 };
+
+/// The stiffness of all planets on the carrier, 5 coordinates per planet: that of their bearings and between them.
+/// `space` has StageSpace::between_planets.
+[[nodiscard]] Eigen::MatrixXd seats_of_planets(const StageSpace& space);
 
 /// A standing force in the axes of the carrier a quarter turn later; nothing along the axis.
 [[nodiscard]] LinearBearing::Vector quarter_turn_later(const LinearBearing::Vector& standing);

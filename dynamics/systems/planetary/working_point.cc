@@ -74,38 +74,57 @@ LinearBearing under_standing_loads(const Linearised& found) {
   return result;
 }
 
-/// The bearings of one planet on its pin as one in the planet's middle.
-LinearBearing on_pin(const std::vector<LinearBearing>& bearings, const Stiffness& pin) {
-  Stiffness sum = Stiffness::Zero();
-  Vector preload = Vector::Zero();
-  Eigen::MatrixXd held(0, 5);
-  for (const auto& b : bearings) {
-    const auto move = to_place(b.place);
-    sum += move.transpose() * b.stiffness * move;
-    preload += move.transpose() * b.preload;
-    for (Eigen::Index i = 0; i < 5; ++i)
-      if (b.rigid.at(static_cast<std::size_t>(i))) {
-        held.conservativeResize(held.rows() + 1, Eigen::NoChange);
-        held.bottomRows<1>() = move.row(i);
-      }
+/// Puts the bearings of planets on their pins in series with these: one in the middle of every planet. `pins`:
+/// SpatialStage::pins.
+void put_on_pins(StageSpace& space, const std::vector<std::vector<LinearBearing>>& bearings,
+                 const Eigen::MatrixXd& pins) {
+  const Eigen::Index size = pins.rows();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size), held(0, size);
+  Eigen::VectorXd preload = Eigen::VectorXd::Zero(size);
+  for (std::size_t n = 0; n < bearings.size(); ++n) {
+    const auto first = 5 * static_cast<Eigen::Index>(n);
+    for (const auto& b : bearings[n]) {
+      const auto move = to_place(b.place);
+      sum.block<5, 5>(first, first) += move.transpose() * b.stiffness * move;
+      preload.segment<5>(first) += move.transpose() * b.preload;
+      for (Eigen::Index i = 0; i < 5; ++i)
+        if (b.rigid.at(static_cast<std::size_t>(i))) {
+          held.conservativeResize(held.rows() + 1, Eigen::NoChange);
+          held.bottomRows<1>().setZero();
+          held.bottomRows<1>().segment<5>(first) = move.row(i);
+        }
+    }
   }
   // Motions of the planet against its pin: the pin gives way until the forces are equal.
-  const Eigen::MatrixXd free = held.rows() == 0  ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(5, 5))
-                               : held.rows() < 5 ? Eigen::MatrixXd(held.fullPivLu().kernel())
-                                                 : Eigen::MatrixXd(5, 0);
-  LinearBearing result;
-  result.name = "bearing";
-  result.body = bearings.front().body;
-  result.on = {Kind::carrier};
-  result.stiffness = pin;
-  const bool gives = free.cols() > 0 && free.cwiseAbs().maxCoeff() > 0;
-  if (!gives) return result;
-  const Eigen::MatrixXd inner = free.transpose() * (sum + pin) * free;
-  const Eigen::MatrixXd share = pin * free * inner.inverse() * free.transpose();
-  result.stiffness -= share * pin;
-  result.stiffness = (result.stiffness + result.stiffness.transpose()).eval() / 2;
-  result.preload = share * preload;
-  return result;
+  const Eigen::MatrixXd free = held.rows() == 0 ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size))
+                                                : Eigen::MatrixXd(held.fullPivLu().kernel());
+  Eigen::MatrixXd stiffness = pins;
+  if (free.cwiseAbs().maxCoeff() > 0) {  // the kernel of what holds all is a column of zeros
+    const Eigen::MatrixXd inner = free.transpose() * (sum + pins) * free;
+    const Eigen::MatrixXd share = pins * free * inner.inverse() * free.transpose();
+    stiffness -= share * pins;
+    stiffness = (stiffness + stiffness.transpose()).eval() / 2;
+    preload = share * preload;
+  } else {
+    preload.setZero();
+  }
+  for (std::size_t n = 0; n < bearings.size(); ++n) {
+    const auto first = 5 * static_cast<Eigen::Index>(n);
+    LinearBearing result;
+    result.name = "bearing";
+    result.body = {Kind::planet, static_cast<int>(n)};
+    result.on = {Kind::carrier};
+    result.stiffness = stiffness.block<5, 5>(first, first);
+    result.preload = preload.segment<5>(first);
+    space.bearings.push_back(std::move(result));
+    stiffness.block<5, 5>(first, first).setZero();
+  }
+  // What single pins leave of it by rounding is nothing.
+  constexpr double rounding = 1e-9;
+  const Eigen::VectorXd scale = pins.diagonal().cwiseSqrt();
+  const Eigen::VectorXd inverse = scale.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
+  if ((inverse.asDiagonal() * stiffness * inverse.asDiagonal()).cwiseAbs().maxCoeff() > rounding)
+    space.between_planets = stiffness;
 }
 
 /// The loads under which planets and bearings on the carrier are linearised. Loads that stand in the housing have their
@@ -229,19 +248,20 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
     const bool directed = given && bearing.frame == StageFrame::housing &&
                           (turning.bearings[i].matrix || turning.bearings[i].x != turning.bearings[i].y);
     if (on_housing && directed) found.stiffness = mean_over_turn(found.stiffness);
-    if (!in_space) flatten(found);
-    const bool seated = stage.pin && bearing.body.kind == Kind::planet && bearing.on.kind == Kind::carrier;
+    const bool seated = stage.pins && bearing.body.kind == Kind::planet && bearing.on.kind == Kind::carrier;
     if (seated)
       of_planets[static_cast<std::size_t>(bearing.body.planet)].push_back(std::move(found));
     else
       space.bearings.push_back(std::move(found));
   }
-  for (const auto& list : of_planets) {
-    if (list.empty()) continue;
-    space.bearings.push_back(on_pin(list, *stage.pin));
-    if (!in_space) flatten(space.bearings.back());
-  }
+  if (stage.pins) put_on_pins(space, of_planets, *stage.pins);
   if (!in_space) {
+    for (auto& b : space.bearings) flatten(b);
+    for (Eigen::Index i = 0; i < space.between_planets.rows(); ++i)
+      if (i % 5 >= 2) {
+        space.between_planets.row(i).setZero();
+        space.between_planets.col(i).setZero();
+      }
     for (const auto kind : {Kind::sun, Kind::ring, Kind::carrier}) space.bearings.push_back(plane_guide({kind}));
     for (int n = 0; n < stage.planets(); ++n) space.bearings.push_back(plane_guide({Kind::planet, n}));
   }

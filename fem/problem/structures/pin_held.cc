@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/circular_beam.h"
+#include "core/beam.h"
 #include "core/errors.h"
 #include "fem/problem/ring_structure.h"
 
@@ -83,7 +83,7 @@ double derived_pin_stiffness(const Material& material, double length) {
 
 double pin_span_stiffness(const Material& material, double diameter, double span) {
   if (span <= 0) return std::numeric_limits<double>::infinity();
-  return 2 / CircularBeam{diameter, material.youngs_modulus, material.poisson_ratio}.parallel_shift(span);
+  return 2 / circular_beam(diameter, material.youngs_modulus, material.poisson_ratio).parallel_shift(span);
 }
 
 }  // namespace annulus::fem

@@ -1,0 +1,113 @@
+#include "app/systems/planetary/space_plan.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "app/systems/planetary/space_dynamics.h"
+#include "app/systems/planetary/space_stage.h"
+
+namespace annulus::app {
+
+namespace {
+
+using dynamics::StageBearing;
+using Body = dynamics::StageBody::Kind;
+
+/// What the bearings of a body do in one direction.
+struct Hold {
+  std::vector<std::string> stiff{}, elastic{};
+
+  [[nodiscard]] DofPlan plan(const std::string& dof) const {
+    if (!stiff.empty()) return {dof, false, fmt::format("rigid bearing {}: dropped", fmt::join(stiff, ", "))};
+    if (elastic.empty()) return {dof, true, "no bearing holds it: the teeth do"};
+    return {dof, true, fmt::format("bearing {}", fmt::join(elastic, ", "))};
+  }
+};
+
+/// `stiffness`: N/m or N m/rad in this direction, of a bearing; infinite, or 0 for none.
+Hold hold(const std::vector<StageBearing>& bearings, const std::function<double(const StageBearing&)>& stiffness) {
+  Hold result;
+  for (const auto& b : bearings) {
+    const double k = stiffness(b);
+    if (k > 0) (k == rigid ? result.stiff : result.elastic).push_back("'" + b.name + "'");
+  }
+  return result;
+}
+
+constexpr double some = 1;  ///< a stiffness that follows from contacts or a table
+
+double radial(const StageBearing& b) { return b.matrix || b.row || !b.distance.empty() ? some : std::max(b.x, b.y); }
+double axial(const StageBearing& b) {
+  const bool of_row = b.row && (b.row->contact_angle != 0 || b.row->element == dynamics::RollingRow::Element::ball);
+  return b.matrix || of_row ? some : b.axial;
+}
+
+}  // namespace
+
+std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geometry, std::vector<DofPlan> plane) {
+  if (!moves_in_space(scene)) return plane;
+  const auto stage = spatial_frame(scene, geometry, 0);
+  const bool leaves_plane = !stage.reasons_for_space().empty();
+  std::vector<DofPlan> list;
+  const auto of_plane = [&](const std::string& dof) {
+    for (const auto& entry : plane)
+      if (entry.name.starts_with(dof) && &entry != &plane.back()) list.push_back(entry);
+  };
+  const std::string planets = fmt::format("planet 1 ... {}", scene.stage.planets);
+  for (const auto& [kind, name] : {std::pair{Body::sun, std::string("sun")},
+                                   {Body::ring, "ring"},
+                                   {Body::carrier, "carrier"},
+                                   {Body::planet, planets}}) {
+    std::vector<StageBearing> bearings;
+    for (auto b : stage.bearings) {
+      if (b.body.kind != kind || (kind == Body::planet && b.body.planet != 0)) continue;
+      if (const auto own = " " + dynamics::name_of_body(b.body); b.name.ends_with(own))
+        b.name.resize(b.name.size() - own.size());
+      bearings.push_back(std::move(b));
+    }
+    const bool on_pins = kind == Body::planet && stage.pins;
+    const auto in_series = [&](DofPlan dof) {
+      if (on_pins) return DofPlan{dof.name, true, "pins and carrier give way"};
+      return dof;
+    };
+    if (stage.has_radial_bearings({kind}))
+      list.push_back(in_series(hold(bearings, radial).plan(name + " x, y")));
+    else
+      of_plane(name == planets ? "planet" : name + " x, y");
+    if (!leaves_plane) {
+      list.push_back({name + " z, tilts", false, "nothing moves it out of the plane: dropped"});
+    } else if (bearings.empty()) {
+      list.push_back(in_series({name + " z, tilts", false,
+                                "no [[bearing]] holds it: it is assumed neither to move along the axis nor to tilt"}));
+    } else {
+      list.push_back(in_series(hold(bearings, axial).plan(name + " z")));
+      const auto stiff =
+          std::count_if(bearings.begin(), bearings.end(), [](const auto& b) { return radial(b) == rigid; });
+      auto tilts = hold(bearings, [&](const StageBearing& b) {
+        return b.tilt == rigid || (stiff > 1 && radial(b) == rigid) ? rigid : std::max(b.tilt, radial(b));
+      });
+      list.push_back(in_series(tilts.plan(name + " tilts")));
+    }
+    if (kind != Body::planet) of_plane(name + " u");
+  }
+  list.push_back(plane.back());  // the planets turn
+  return list;
+}
+
+std::string remark_on_statics(const Scene& scene, const GearGeometry& geometry) {
+  if (!moves_in_space(scene) && scene.stage.helix_angle == 0) return {};
+  const auto reasons = spatial_frame(scene, geometry, 0).reasons_for_space();
+  const char* where = moves_in_space(scene) ? "In space" : "annulus statics";
+  if (reasons.empty())
+    return fmt::format(
+        "{}: no body moves along the axis or tilts. The teeth are spur, and faces, bearings and loads are symmetric "
+        "about the middle of the face.",
+        where);
+  return fmt::format("{}: bodies also move along the axis and tilt, because {}.", where, fmt::join(reasons, "; "));
+}
+
+}  // namespace annulus::app
