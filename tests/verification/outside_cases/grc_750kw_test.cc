@@ -65,9 +65,8 @@ BOOST_AUTO_TEST_CASE(carrier_in_its_clearance) {
   Verification record("Load sharing of the GRC 750 kW planetary stage in space",
                       std::string("measured: ") + measured + "; equilibrium of the sun");
   const OutsideCase published("grc_750kw");
-  const auto solved = [&](const std::string& arguments) {
-    std::ifstream file(published.statics("in_space.toml", "--set load.moment_Nm=[0,300e3,0] " + arguments) /
-                       "statics.json");
+  const auto solved = [&](const std::string& arguments, const std::string& scene = "in_space.toml") {
+    std::ifstream file(published.statics(scene, "--set load.moment_Nm=[0,300e3,0] " + arguments) / "statics.json");
     return nlohmann::json::parse(file).at("rings").at("between_housings");
   };
   const auto sharing = [](const nlohmann::json& ring) -> double {
@@ -90,6 +89,12 @@ BOOST_AUTO_TEST_CASE(carrier_in_its_clearance) {
   record.near("largest load of a planet bearing without clearance, below that with", "%", less,
               published.printed("largest_bearing_load_gearbox_3_below_gearbox_2").value, 15,
               "assumed bearings; planets keep theirs");
+  const auto tapered = solved("", "gearbox_3.toml");
+  record.at_most("load sharing on preloaded tapered rollers", "", sharing(tapered),
+                 published.printed("load_sharing_gearbox_3_upper_bound").value, "measured");
+  record.near("largest load of a planet bearing on preloaded tapered rollers, below that with clearance", "%",
+              100 * (1 - row(tapered, "upwind row planet1") / row(with, "upwind row planet1")),
+              published.printed("largest_bearing_load_gearbox_3_below_gearbox_2").value, 15, "assumed bearings");
   // In any position K_gamma = 1 + (2/3) |S + W| / F where a planet stands along the force; S is that of the spline and
   // W the weight of the sun.
   const double force = with.at("mean_mesh_force_N"), spline = row(with, "spline");
