@@ -269,6 +269,7 @@ Table carrier_structure_table() {
       .absent("webs");
   structure.key("webs", &CarrierStructureInput::webs, "Number of webs, evenly spaced.")
       .from(2, 50)
+      .absent("a matrix")
       .one_of({"stiffness_file"});
   const auto webs = given("webs");
   const auto length = [&](const char* key, std::optional<double> CarrierStructureInput::*member, const char* meaning) {

@@ -244,7 +244,7 @@ Blocks bearing_blocks(const RingStatics& ring) {
       .head = {"bearing", "body", "radial force, largest", "mean", "axial force, largest", "moment, largest"},
       .style = PageTable::Style::numbers};
   const bool rolls = std::any_of(ring.bearings.begin(), ring.bearings.end(), [](const auto& b) { return b.element; });
-  if (rolls) table.head.emplace_back("roller or ball, largest");
+  if (rolls) table.head.emplace_back("roller or ball");
   for (const auto& b : ring.bearings) {
     table.rows.push_back({b.name, b.body, force_text(ring, b.radial), text_in_unit(b.mean_radial, shown_units::force),
                           force_text(ring, b.axial), moment_text(ring, b.moment)});
