@@ -228,6 +228,7 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"load.*", "of stages in space"},
       {"gravity.*", "of annulus statics alone"},
       {"carrier_structure.*", "of stages in space"},
+      {"housing.*", "of stages in space"},
       {"tilt_inertia.*", "of stages in space"},
       {"statics.*", "of annulus statics alone"},
       {"dynamics.mesh_cycles", "a length of motion, without a steady state"},

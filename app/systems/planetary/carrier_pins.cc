@@ -1,18 +1,17 @@
 #include "app/systems/planetary/carrier_pins.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "app/systems/planetary/point_stiffness.h"
 #include "app/systems/planetary/space_input.h"
 #include "app/systems/planetary/stage_supports.h"
-#include "core/csv.h"
 #include "core/errors.h"
 #include "dynamics/spatial/carrier_structure.h"
-#include "dynamics/spatial/elastic_laws.h"
 
 namespace annulus::app {
 
@@ -81,48 +80,13 @@ std::optional<Eigen::MatrixXd> pins_in_space(const Scene& scene, const std::vect
 }
 
 Eigen::MatrixXd read_carrier_stiffness(const std::filesystem::path& file, int planets) {
-  const auto csv = Csv::read(file);
   std::vector<std::string> names;
-  const auto each = csv.columns.size() == 6 * static_cast<std::size_t>(planets) ? 6 : 5;
-  for (int n = 1; n <= planets; ++n)
-    for (const auto* what : {"x_m", "y_m", "z_m", "about_x_rad", "about_y_rad", "about_z_rad"})
-      if (std::string(what) != "about_z_rad" || each == 6) names.push_back(fmt::format("planet{}_{}", n, what));
-  if (csv.columns.size() != names.size() || csv.rows.size() != names.size())
-    throw InputError(fmt::format("has {} columns and {} rows of numbers; {} planets have 5 or 6 coordinates each",
-                                 csv.columns.size(), csv.rows.size(), planets));
-  const auto size = static_cast<Eigen::Index>(names.size());
-  Eigen::MatrixXd given(size, size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const auto& name = csv.columns[static_cast<std::size_t>(i)];
-    if (name != names[static_cast<std::size_t>(i)])
-      throw InputError(fmt::format("column {} is '{}', not '{}'", i + 1, name, names[static_cast<std::size_t>(i)]));
-    for (Eigen::Index j = 0; j < size; ++j)
-      given(i, j) = csv.rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  }
-  (void)dynamics::LinearLaw(given);  // symmetric, and gives no energy away
-  if (each == 6) {
-    Eigen::MatrixXd kept(5 * planets, size), turning(planets, size);
-    for (int n = 0; n < planets; ++n) {
-      kept.middleRows<5>(static_cast<Eigen::Index>(5 * n)) =
-          Eigen::MatrixXd::Identity(size, size).middleRows<5>(static_cast<Eigen::Index>(6 * n));
-      turning.row(n) = Eigen::RowVectorXd::Unit(size, 6 * n + 5);
-    }
-    const Eigen::FullPivLU<Eigen::MatrixXd> own(turning * given * turning.transpose());
-    if (!own.isInvertible())
-      throw InputError("a pin can turn about its own axis and nothing resists: leave out the columns about_z_rad");
-    given = (kept * given * kept.transpose() -
-             kept * given * turning.transpose() * own.solve(turning * given * kept.transpose()))
-                .eval();
-  }
-  const Eigen::VectorXd scale = given.diagonal().cwiseMax(0).cwiseSqrt();
-  if (!(scale.minCoeff() > 0) ||
-      !Eigen::FullPivLU<Eigen::MatrixXd>(scale.cwiseInverse().asDiagonal() * given * scale.cwiseInverse().asDiagonal())
-           .isInvertible())
-    throw InputError(
-        "holds the pins not in all directions: it is the stiffness with the carrier's shaft held, in which no motion "
-        "of "
-        "the pins is free");
-  return (given + given.transpose()) / 2;
+  for (int n = 0; n < planets; ++n) names.push_back(dynamics::name_of_body({dynamics::StageBody::Kind::planet, n}));
+  auto read = read_point_stiffness(file, names, {}, "the carrier's shaft held");
+  if (read.points != names)
+    throw InputError(fmt::format("has the points {}: {} planets have 5 or 6 coordinates each",
+                                 fmt::join(read.points, ", "), planets));
+  return std::move(read.stiffness);
 }
 
 }  // namespace annulus::app

@@ -16,8 +16,7 @@ namespace annulus::app {
                                                            double radius);
 
 /// Reads a carrier's stiffness from a file (docs/exchange.md): 5 coordinates per planet in the axes of the carrier,
-/// along x, y, z and about x, y. Rotations about z, of which pins bear none, are condensed. Throws InputError with what
-/// is wrong in it.
+/// along x, y, z and about x, y. Throws InputError with what is wrong in it.
 [[nodiscard]] Eigen::MatrixXd read_carrier_stiffness(const std::filesystem::path& file, int planets);
 
 }  // namespace annulus::app

@@ -102,9 +102,14 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
                     "the inertia of all bodies acts in the middle of the face of [stage] in the dynamics, their weight "
                     "in the places of [gravity]"});
   std::vector<std::string> bent, directed;
+  const auto in_housing = [&](const BearingInput& b) {
+    if (!space.housing) return false;
+    const auto& points = space.housing->seats.points;
+    return std::find(points.begin(), points.end(), column_of(b.name)) != points.end();
+  };
   for (const auto& b : space.bearings) {
     if (bends(b)) bent.push_back("'" + b.name + "'");
-    if (depends_on_direction(b)) directed.push_back("'" + b.name + "'");
+    if (depends_on_direction(b) || in_housing(b)) directed.push_back("'" + b.name + "'");
   }
   if (scene.supports.planet_clearance > 0 && !has_radial_bearing(scene, dynamics::StageBody::Kind::planet))
     bent.emplace_back("supports.planet_clearance_um");

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/systems/planetary/point_stiffness.h"
 #include "dynamics/spatial/carrier_structure.h"
 #include "dynamics/systems/planetary/spatial_stage.h"
 
@@ -49,6 +51,12 @@ struct GravityInput {
   double sun = 0, planet = 0, ring = 0, carrier = 0;  ///< m, centres of mass on the axes
 };
 
+/// The name of a bearing in columns and files.
+[[nodiscard]] inline std::string column_of(std::string bearing) {
+  std::replace(bearing.begin(), bearing.end(), ' ', '_');
+  return bearing;
+}
+
 /// Webs between two walls, or a matrix in a file.
 struct CarrierStructureInput {
   std::optional<int> webs;
@@ -56,6 +64,11 @@ struct CarrierStructureInput {
   dynamics::Side shaft = dynamics::Side::low;
   std::optional<std::string> file;
   Eigen::MatrixXd stiffness{};  ///< that of the file: read_carrier_stiffness()
+};
+
+struct HousingInput {
+  std::string file;
+  PointStiffness seats{};  ///< that of the file; its points are columns of bearings
 };
 
 struct TiltInertiaInput {
@@ -73,10 +86,11 @@ struct SpaceInput {
   std::vector<LoadInput> loads;
   std::optional<GravityInput> gravity;
   std::optional<CarrierStructureInput> carrier_structure;
+  std::optional<HousingInput> housing;
   TiltInertiaInput tilt_inertia;
   StaticsInput statics;
 
-  [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity || carrier_structure; }
+  [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity || carrier_structure || housing; }
 };
 
 }  // namespace annulus::app

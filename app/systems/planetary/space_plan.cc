@@ -46,6 +46,11 @@ double axial(const StageBearing& b) {
   return b.matrix || of_row ? some : b.axial;
 }
 
+bool in_housing(const dynamics::SpatialStage& stage, Body kind) {
+  return stage.housing && std::any_of(stage.housing->bearings.begin(), stage.housing->bearings.end(),
+                                      [&](std::size_t i) { return stage.bearings[i].body.kind == kind; });
+}
+
 }  // namespace
 
 std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geometry, std::vector<DofPlan> plane) {
@@ -69,9 +74,9 @@ std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geome
         b.name.resize(b.name.size() - own.size());
       bearings.push_back(std::move(b));
     }
-    const bool on_pins = kind == Body::planet && stage.pins;
     const auto in_series = [&](DofPlan dof) {
-      if (on_pins) return DofPlan{dof.name, true, "pins and carrier give way"};
+      if (kind == Body::planet && stage.pins) return DofPlan{dof.name, true, "pins and carrier give way"};
+      if (in_housing(stage, kind)) return DofPlan{dof.name, true, "the housing gives way"};
       return dof;
     };
     if (stage.has_radial_bearings({kind}))
@@ -92,7 +97,10 @@ std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geome
       });
       list.push_back(in_series(tilts.plan(name + " tilts")));
     }
-    if (kind != Body::planet) of_plane(name + " u");
+    if (kind == Body::ring && stage.housing && stage.housing->ring_bearing)
+      list.push_back({"ring u", true, "the housing gives way"});
+    else if (kind != Body::planet)
+      of_plane(name + " u");
   }
   list.push_back(plane.back());  // the planets turn
   return list;

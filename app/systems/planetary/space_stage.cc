@@ -93,6 +93,21 @@ void add_bearings(const Scene& scene, dynamics::SpatialStage& stage) {
     }
 }
 
+/// After add_bearings().
+void add_housing(const Scene& scene, dynamics::SpatialStage& stage) {
+  const auto& input = scene.own<SpaceInput>().housing;
+  if (!input) return;
+  dynamics::HousingStructure housing{{}, input->seats.stiffness};
+  for (const auto& point : input->seats.points)
+    for (std::size_t i = 0; i < stage.bearings.size(); ++i)
+      if (stage.bearings[i].on.kind == Body::housing && column_of(stage.bearings[i].name) == point) {
+        if (input->seats.turns && stage.bearings[i].body.kind == Body::ring)
+          housing.ring_bearing = housing.bearings.size();
+        housing.bearings.push_back(i);
+      }
+  stage.housing = std::move(housing);
+}
+
 void add_loads(const Scene& scene, std::size_t ring, dynamics::SpatialStage& stage) {
   const auto& space = scene.own<SpaceInput>();
   for (const auto& input : space.loads)
@@ -252,6 +267,7 @@ dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geo
   stage.sun_face = bare_face(scene, set.sun_mesh(), scene.sun_planet, scene.errors.sun_planet_misalignment);
   stage.ring_face = bare_face(scene, set.ring_mesh(), scene.ring_planet, scene.errors.ring_planet_misalignment);
   add_bearings(scene, stage);
+  add_housing(scene, stage);
   add_loads(scene, ring, stage);
   return stage;
 }

@@ -293,6 +293,23 @@ Table carrier_structure_table() {
   return structure.done();
 }
 
+Table housing_table() {
+  Declarations<HousingInput> housing(
+      "housing", "What the housing gives way behind the bearings that stand on it.",
+      [](Scene& s, std::size_t) -> HousingInput& {
+        auto& h = s.own<SpaceInput>().housing;
+        return h ? *h : h.emplace();
+      });
+  housing.on_request();
+  housing
+      .key("stiffness_file", &HousingInput::file,
+           "File (CSV) with the stiffness of the housing in the places of [[bearing]] tables (docs/exchange.md), such "
+           "as a reduced finite-element model has. Bearings that it does not contain stand on rigid ground. The path "
+           "is relative to the scene.")
+      .required();
+  return housing.done();
+}
+
 Table tilt_inertia_table() {
   Declarations<TiltInertiaInput> tilting(
       "tilt_inertia", "Moments of inertia about an axis across the body's own, through the middle of the face.",
@@ -344,23 +361,20 @@ class SpaceChecks : KeyChecks {
     for (std::size_t i = 0; i < space.bearings.size(); ++i) bearing(i, space.bearings[i]);
     for (std::size_t i = 0; i < space.loads.size(); ++i) load(i, space.loads[i]);
     if (auto& structure = scene_.own<SpaceInput>().carrier_structure) carrier(*structure);
+    if (auto& given = scene_.own<SpaceInput>().housing) housing(*given);
   }
 
  private:
   template <class List>
   void names(const std::string& key, const List& list) {
     const auto printable = [](unsigned char c) { return c >= ' ' && c != 127 && c != ',' && c != '"'; };
-    const auto column = [](std::string name) {
-      std::replace(name.begin(), name.end(), ' ', '_');
-      return name;
-    };
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (!usable(key, i)) continue;
       const auto& name = list[i].name;
       if (name.empty() || !std::all_of(name.begin(), name.end(), printable))
         problem(key, i, "names it in tables: not empty, without line breaks, tabs, commas and quotes");
       for (std::size_t j = 0; j < i; ++j)
-        if (column(list[j].name) == column(name)) {
+        if (column_of(list[j].name) == column_of(name)) {
           problem(key, i, "is the name of more than one; each needs its own");
           break;
         }
@@ -442,6 +456,30 @@ class SpaceChecks : KeyChecks {
     }
   }
 
+  void housing(HousingInput& input) {
+    const std::string key = "housing.stiffness_file";
+    if (!usable(key)) return;
+    const auto& bearings = scene_.own<SpaceInput>().bearings;
+    std::vector<std::string> known, of_ring;
+    for (std::size_t i = 0; i < bearings.size(); ++i) {
+      const auto& b = bearings[i];
+      const bool wrong_on = given("bearing.on", i) && !usable("bearing.on", i);
+      if (!usable("bearing.name", i) || !usable("bearing.body", i) || wrong_on) return;
+      if (b.body == Body::planet || b.on.value_or(Body::housing) != Body::housing) continue;
+      known.push_back(column_of(b.name));
+      if (b.body == Body::ring) of_ring.push_back(known.back());
+    }
+    if (known.empty()) return problem(key, "needs bearings that stand on the housing: add [[bearing]]");
+    // The torque of a ring that is held enters the housing in its bearing.
+    const bool held = scene_.stage.held == geometry::StageMember::ring;
+    try {
+      input.seats = read_point_stiffness(file_below_scene(scene_, input.file), known,
+                                         held ? of_ring : std::vector<std::string>{}, "the foundation held");
+    } catch (const InputError& error) {
+      problem(key, error.what());
+    }
+  }
+
   void row(std::size_t i, const BearingInput& b) {
     const auto diameter = b.balls ? b.ball_diameter : b.roller_diameter;
     const bool inclined = b.balls || b.contact_angle != 0;
@@ -487,7 +525,7 @@ void reverse(std::vector<double>& list, std::initializer_list<std::size_t> which
 
 std::vector<Table> space_tables() {
   return {bearing_table(),           load_table(),         gravity_table(),
-          carrier_structure_table(), tilt_inertia_table(), statics_table()};
+          carrier_structure_table(), housing_table(),      tilt_inertia_table(), statics_table()};
 }
 
 void check_space(Scene& scene, std::vector<Problem>& problems) { SpaceChecks(scene, problems).run(); }
@@ -499,13 +537,18 @@ void mirror_space(Scene& scene) {
     constexpr double sign[] = {1, -1, 1, -1, 1};
     for (std::size_t i = 0; i < 25; ++i) b.matrix[i] *= sign[i / 5] * sign[i % 5];
   }
+  const auto mirror = [](Eigen::MatrixXd& stiffness, bool turns) {
+    constexpr int sign[] = {1, -1, 1, -1, 1};
+    Eigen::VectorXd signs(stiffness.rows());
+    for (Eigen::Index i = 0; i < signs.size(); ++i) signs[i] = sign[i % 5];
+    if (turns) signs[signs.size() - 1] = -1;  // about z
+    stiffness = signs.asDiagonal() * stiffness * signs.asDiagonal();
+  };
   if (auto& structure = space.carrier_structure) {
     if (structure->webs) structure->first_web = -structure->first_web.value_or(M_PI / scene.stage.planets);
-    constexpr int sign[] = {1, -1, 1, -1, 1};
-    for (Eigen::Index i = 0; i < structure->stiffness.rows(); ++i)
-      for (Eigen::Index j = 0; j < structure->stiffness.cols(); ++j)
-        structure->stiffness(i, j) *= sign[i % 5] * sign[j % 5];
+    mirror(structure->stiffness, false);
   }
+  if (space.housing) mirror(space.housing->seats.stiffness, space.housing->seats.turns);
   for (auto& l : space.loads) {
     reverse(l.point, {1});
     reverse(l.force, {1});

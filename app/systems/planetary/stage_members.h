@@ -15,13 +15,14 @@ ANNULUS_MEMBERS(dynamics::PlanetBody, mass, inertia, radius);
 ANNULUS_MEMBERS(dynamics::PlanetBearing, radial, tangential, play, pin);
 ANNULUS_MEMBERS(dynamics::StageBody, kind, planet);
 ANNULUS_MEMBERS(dynamics::LinearBearing, name, body, on, place, stiffness, rigid, preload, standing);
+ANNULUS_MEMBERS(dynamics::LinearCoupling, name, bearings, stiffness, turns_ring, ring_preload);
 ANNULUS_MEMBERS(dynamics::SpaceLoad, body, load);
 ANNULUS_MEMBERS(dynamics::StandingLoad, body, cosine, sine);
 ANNULUS_MEMBERS(FaceShape, slope, curvature, gap_slope, error_relative, tilted);
 ANNULUS_MEMBERS(dynamics::StageSpace::Face, width, middle, gap, shape);
 ANNULUS_MEMBERS(dynamics::StageSpace::TiltInertia, sun, ring, carrier, planet);
 ANNULUS_MEMBERS(dynamics::StageSpace, base_helix_angle, working_radius_sun, working_radius_ring, sun_face, ring_face,
-                tilt_inertia, bearings, between_planets, loads, standing_loads);
+                tilt_inertia, bearings, couplings, loads, standing_loads);
 ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bearings, planet_angles, planet_errors,
                 sun_tooth_errors, ring_tooth_errors, sun_working_angle, ring_working_angle, sun_teeth, planet_teeth,
                 ring_teeth, sun_mesh, ring_mesh, sun_phase_lag, ring_phase_lag, ring_tooth_offset, ring_coupling,

@@ -36,11 +36,16 @@ BodyData data_of(const PlanetaryStage& stage, const StageBody& body) {
   const auto central = [](const CentralBody& b, double across, double spin) {
     return BodyData{b.mass, b.inertia, b.radius, across, spin, b.torsional_support};
   };
+  const auto of_ring = [&](BodyData ring) {
+    if (const auto* coupling = stage.space->coupling_of_ring())
+      ring.torsional_support = coupling->stiffness.bottomRightCorner<1, 1>().value();
+    return ring;
+  };
   switch (body.kind) {
     case Kind::sun:
       return central(stage.sun, tilt.sun, stage.sun_speed());
     case Kind::ring:
-      return central(stage.ring, tilt.ring, stage.ring_speed);
+      return of_ring(central(stage.ring, tilt.ring, stage.ring_speed));
     case Kind::carrier:
       return central(stage.carrier, tilt.carrier, stage.carrier_speed);
     default:
@@ -125,8 +130,8 @@ class SpaceBodies {
   StageForms build() && {
     for (const auto kind : {Kind::sun, Kind::ring, Kind::carrier}) add_body({kind});
     for (int n = 0; n < stage_.planets(); ++n) add_body({Kind::planet, n});
-    for (const auto& bearing : stage_.space->bearings) add_spring(bearing);
-    if (whole_seats()) add_seats();
+    for (std::size_t i = 0; i < stage_.space->bearings.size(); ++i) add_bearing(i);
+    for (const auto& coupling : stage_.space->couplings) add_coupling(coupling);
     for (const auto& load : stage_.space->loads) add_load(load);
     for (const auto& load : stage_.space->standing_loads) add_load(load);
     add_dampers();
@@ -171,7 +176,8 @@ class SpaceBodies {
     if (data.torsional_support != rigid) {
       forms.u = builder_.add_dof(name + "_u");
       builder_.add_mass(forms.u, rotating);
-      builder_.add_spring(forms.u, data.torsional_support,
+      const bool coupled = body.kind == Kind::ring && stage_.space->coupling_of_ring();
+      builder_.add_spring(forms.u, coupled ? 0 : data.torsional_support,
                           critical_share(stage_.support_damping_ratio, data.torsional_support, rotating),
                           name + "_support_u");
     }
@@ -195,7 +201,8 @@ class SpaceBodies {
     builder_.add_rotating_stiffness(carrier.z, tilt, 2 * centrifugal);
   }
 
-  void add_spring(const LinearBearing& bearing) {
+  void add_bearing(std::size_t number) {
+    const LinearBearing& bearing = stage_.space->bearings[number];
     const auto d = relative_motion(stage_, forms_, bearing.body, bearing.on);
     const auto move = to_place(bearing.place);
     const Vector force = move.transpose() * bearing.preload;
@@ -205,28 +212,26 @@ class SpaceBodies {
       builder_.add_load(coordinate, -force[i]);
       builder_.add_harmonic_load(coordinate, stage_.carrier_speed, -standing[i], -later[i]);
     }
-    if (whole_seats() && stands_on_carrier(bearing)) return;  // add_seats()
+    if (stage_.space->coupling_of(number)) return;  // add_coupling()
     const std::string name = bearing.element();
     for (const auto& [stiffness, form] :
          squares(moved_along_axis(bearing.stiffness, bearing.place), d, data_of(stage_, bearing.body).radius))
       builder_.add_spring(form, stiffness, 0, name);
   }
 
-  /// Do planets act on each other through the carrier?
-  [[nodiscard]] bool whole_seats() const { return stage_.space->between_planets.size() > 0; }
-
-  /// The coordinates of all planets against the carrier.
-  [[nodiscard]] Forms against_carrier() const {
-    Forms all;
-    for (int n = 0; n < stage_.planets(); ++n)
-      for (auto& form : relative_motion(stage_, forms_, {Kind::planet, n}, {Kind::carrier})) all.push_back(form);
-    return all;
+  void add_coupling(const LinearCoupling& coupling) {
+    for (const auto& [stiffness, form] :
+         squares(stage_.space->whole(coupling), coordinates_of(coupling), stage_.planet.radius))
+      builder_.add_spring(form, stiffness, 0, coupling.name);
+    if (coupling.turns_ring) builder_.add_load(forms_.ring.u, -coupling.ring_preload);
   }
 
-  void add_seats() {
-    for (const auto& [stiffness, form] :
-         squares(seats_of_planets(*stage_.space), against_carrier(), stage_.planet.radius))
-      builder_.add_spring(form, stiffness, 0, "planet_bearing");
+  [[nodiscard]] Forms coordinates_of(const LinearCoupling& coupling) const {
+    Forms all;
+    for (const std::size_t i : coupling.bearings)
+      for (auto& form : bearing_motion(stage_, forms_, stage_.space->bearings[i])) all.push_back(std::move(form));
+    if (coupling.turns_ring) all.push_back(forms_.ring.u);
+    return all;
   }
 
   /// The coordinates of a body on which forces and moments do work.
@@ -253,7 +258,7 @@ class SpaceBodies {
     LinearForm form;
   };
   /// A symmetric matrix over coordinates d as sum of value x form^2. `length`: m, by which tilts are compared.
-  /// Five coordinates per body, the last two tilts.
+  /// Five coordinates per body, the last two tilts; one more at the end is a displacement.
   static std::vector<Square> squares(const Eigen::MatrixXd& matrix, const Forms& d, double length) {
     Eigen::VectorXd unit(matrix.rows());
     for (Eigen::Index i = 0; i < unit.size(); ++i) unit[i] = i % 5 < 3 ? 1 : 1 / length;
@@ -280,7 +285,7 @@ class SpaceBodies {
       const auto& first = bearings[i];
       const auto same = [&](const auto& b) { return b.body == first.body && b.on == first.on; };
       if (std::any_of(bearings.begin(), bearings.begin() + static_cast<std::ptrdiff_t>(i), same)) continue;
-      if (whole_seats() && stands_on_carrier(first)) continue;
+      if (stands_on_carrier(first) && stage_.space->coupling_of(i)) continue;
       Stiffness sum = Stiffness::Zero();
       for (const auto& b : bearings)
         if (same(b)) sum += moved_along_axis(b.stiffness, b.place);
@@ -298,11 +303,13 @@ class SpaceBodies {
             builder_.add_circulatory(d[static_cast<std::size_t>(r)], turned[static_cast<std::size_t>(c)],
                                      damping(r, c) * speed_);
     }
-    if (whole_seats())
+    for (const auto& coupling : stage_.space->couplings) {
+      if (!stands_on_carrier(bearings[coupling.bearings.front()])) continue;
       for (const auto& [value, form] :
-           squares(damping_of(seats_of_planets(*stage_.space), data_of(stage_, {Kind::planet, 0})), against_carrier(),
-                   stage_.planet.radius))
+           squares(damping_of(stage_.space->whole(coupling), data_of(stage_, {Kind::planet, 0})),
+                   coordinates_of(coupling), stage_.planet.radius))
         builder_.add_spring(form, 0, value, "planet_dampers");
+    }
   }
 
   /// Of equal bodies, five coordinates each.
@@ -335,6 +342,18 @@ std::vector<LinearForm> relative_motion(const PlanetaryStage& stage, const Stage
   const auto below = seat(stage, bodies, body, on);
   std::vector<LinearForm> d{b.x, b.y, b.z, b.tilt_x, b.tilt_y};
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = d[i] + (-1.0) * below[i];
+  return d;
+}
+
+std::vector<LinearForm> bearing_motion(const PlanetaryStage& stage, const StageForms& bodies,
+                                       const LinearBearing& bearing) {
+  const auto middle = relative_motion(stage, bodies, bearing.body, bearing.on);
+  const auto move = to_place(bearing.place);
+  std::vector<LinearForm> d(middle.size());
+  for (Eigen::Index i = 0; i < move.rows(); ++i)
+    for (Eigen::Index j = 0; j < move.cols(); ++j)
+      if (move(i, j) != 0)
+        d[static_cast<std::size_t>(i)] = d[static_cast<std::size_t>(i)] + move(i, j) * middle[static_cast<std::size_t>(j)];
   return d;
 }
 

@@ -31,27 +31,39 @@ SpaceMotion space_motion(const PlanetaryStage& stage, const TimeSeries& series) 
   const Eigen::Index times = series.time.size(), meshes = 2 * static_cast<Eigen::Index>(stage.planets());
   require(series.force.rows() == 2 * meshes, fmt::format("{} forces of {} meshes", series.force.rows(), meshes));
   const Eigen::ArrayXd angle = stage.carrier_speed * series.time.array();
-  // Forces on a planet from the motions of the others.
-  Eigen::MatrixXd through_carrier;
-  if (stage.space->between_planets.size() > 0) {
-    Eigen::MatrixXd motions(5 * stage.planets(), times);
-    for (int n = 0; n < stage.planets(); ++n)
-      motions.middleRows<5>(static_cast<Eigen::Index>(5 * n)) =
-          course(relative_motion(stage, forms, {StageBody::Kind::planet, n}, {StageBody::Kind::carrier}), series);
-    through_carrier = -stage.space->between_planets * motions;
+  // Forces on a bearing from the motions of others.
+  const auto& space = *stage.space;
+  std::vector<Eigen::MatrixXd> from_others(space.bearings.size());
+  for (const auto& coupling : space.couplings) {
+    Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(coupling.stiffness.rows(), times);
+    Eigen::Index first = 0;
+    for (const std::size_t i : coupling.bearings) {
+      motions.middleRows<5>(first) = course(bearing_motion(stage, forms, space.bearings[i]), series);
+      first += 5;
+    }
+    if (coupling.turns_ring)
+      for (const auto& [dof, factor] : forms.ring.u) motions.row(first) += factor * series.displacement.row(dof);
+    const Eigen::MatrixXd forces = -coupling.stiffness * motions;
+    first = 0;
+    for (const std::size_t i : coupling.bearings) {
+      from_others[i] = forces.middleRows<5>(first);
+      first += 5;
+    }
+    if (coupling.turns_ring)
+      result.ring_torque = stage.ring.radius * (forces.row(first).transpose().array() - coupling.ring_preload).matrix();
   }
-  for (const auto& b : stage.space->bearings) {
+  for (std::size_t i = 0; i < space.bearings.size(); ++i) {
+    const auto& b = space.bearings[i];
     if (b.stiffness.isZero(0)) continue;  // all that it does is rigid
-    const Eigen::MatrixXd motion = course(relative_motion(stage, forms, b.body, b.on), series);
-    SpaceMotion::Bearing bearing{b.element(), b.body, b.on, -b.stiffness * (to_place(b.place) * motion)};
-    if (through_carrier.size() > 0 && stands_on_carrier(b))
-      bearing.force += through_carrier.middleRows<5>(5 * static_cast<Eigen::Index>(b.body.planet));
+    SpaceMotion::Bearing bearing{b.element(), b.body, b.on,
+                                 -b.stiffness * course(bearing_motion(stage, forms, b), series)};
+    if (from_others[i].size() > 0) bearing.force += from_others[i];
     bearing.force.colwise() -= b.preload;
     if (b.standing.any())
       bearing.force -= b.standing * angle.cos().matrix().transpose() +
                        quarter_turn_later(b.standing) * angle.sin().matrix().transpose();
-    for (Eigen::Index i = 0; i < 5; ++i)
-      if (b.rigid.at(static_cast<std::size_t>(i))) bearing.force.row(i).setConstant(not_known);
+    for (Eigen::Index k = 0; k < 5; ++k)
+      if (b.rigid.at(static_cast<std::size_t>(k))) bearing.force.row(k).setConstant(not_known);
     result.bearings.push_back(std::move(bearing));
   }
   for (Eigen::Index m = 0; m < meshes; ++m) {

@@ -26,6 +26,7 @@ struct SpaceMotion {
     Eigen::VectorXd place;
   };
   std::vector<Bearing> bearings;  ///< those of StageSpace that give way
+  Eigen::VectorXd ring_torque{};  ///< N m, of the housing on the ring, where LinearCoupling::turns_ring
   std::vector<Mesh> meshes;       ///< sun meshes, then ring meshes
 };
 /// Empty for a plane stage. `series` must belong to the stage.

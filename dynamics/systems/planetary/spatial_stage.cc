@@ -79,10 +79,12 @@ class Assembly {
     if (stage_.pins)
       for (int n = 0; n < stage_.planets(); ++n)
         mechanism().add_body({name_of_body({Kind::pin, n}), centre_of(stage_, {Kind::pin, n}), space_});
+    if (stage_.housing) add_housing_places();
     for (const auto& bearing : stage_.bearings) add_bearing(bearing);
     for (const auto kind : central_bodies) add_support({kind});
     for (int n = 0; n < stage_.planets(); ++n) add_support({Kind::planet, n});
     if (stage_.pins) add_pins();
+    if (stage_.housing) add_housing();
     add_rotations();
     for (int n = 0; n < stage_.planets(); ++n) result_.meshes.push_back(add_mesh(true, n));
     for (int n = 0; n < stage_.planets(); ++n) result_.meshes.push_back(add_mesh(false, n));
@@ -95,8 +97,11 @@ class Assembly {
   Mechanism& mechanism() { return result_.mechanism; }
   [[nodiscard]] int number(const StageBody& body) const { return body_number(stage_, body); }
 
-  /// What a bearing stands on: those of planets on pins, where there are pins.
+  /// What a bearing stands on: those of planets on pins, those in the housing on its places, where these give way.
   [[nodiscard]] int seat_of(const StageBearing& b) const {
+    if (stage_.housing)
+      for (std::size_t i = 0; i < stage_.housing->bearings.size(); ++i)
+        if (&stage_.bearings[stage_.housing->bearings[i]] == &b) return housing_place(i);
     const bool on_pin = stage_.pins && b.body.kind == Kind::planet && b.on.kind == Kind::carrier;
     return number(on_pin ? StageBody{Kind::pin, b.body.planet} : b.on);
   }
@@ -235,20 +240,63 @@ class Assembly {
     }
   }
 
+  [[nodiscard]] int housing_place(std::size_t i) const { return first_housing_place_ + static_cast<int>(i); }
+
+  void add_housing_places() {
+    first_housing_place_ = mechanism().bodies();
+    for (const std::size_t i : stage_.housing->bearings) {
+      const auto& b = stage_.bearings.at(i);
+      if (b.on.kind != Kind::housing)
+        throw InputError(fmt::format("bearing '{}' stands on the {}, not on the housing", b.name,
+                                     name_of_body(b.on)));
+      auto name = "housing_" + b.name;
+      std::replace(name.begin(), name.end(), ' ', '_');
+      mechanism().add_body({std::move(name), b.place * Vector3d::UnitZ()});
+    }
+  }
+
+  void add_housing() {
+    const auto& housing = *stage_.housing;
+    const auto axes = frame_axes(stage_, StageFrame::housing, {}, time_);
+    const Eigen::Index each = 5, places = std::ssize(housing.bearings);
+    const Eigen::Index size = each * places + (housing.ring_bearing ? 1 : 0);
+    if (housing.stiffness.rows() != size || housing.stiffness.cols() != size)
+      throw InputError(fmt::format("the stiffness of the housing has {} x {} entries; {} bearings need {} x {}",
+                                   housing.stiffness.rows(), housing.stiffness.cols(), places, size, size));
+    Eigen::MatrixXd measures(size, 6 * static_cast<Eigen::Index>(mechanism().bodies()));
+    for (std::size_t n = 0; n < housing.bearings.size(); ++n) {
+      const int place = housing_place(n);
+      const Eigen::Index first = each * static_cast<Eigen::Index>(n);
+      for (int i = 0; i < 5; ++i)
+        measures.row(first + i) =
+            i < 3 ? mechanism().displacement(place, Mechanism::ground, mechanism().body(place).reference, axes.col(i))
+                  : mechanism().rotation(place, Mechanism::ground, axes.col(i - 3));
+      const auto turn = mechanism().rotation(place, Mechanism::ground, Vector3d::UnitZ());
+      if (housing.ring_bearing == n)
+        measures.row(size - 1) = turn;
+      else
+        mechanism().hold(fmt::format("the rotation of the {}", mechanism().body(place).name), turn);
+    }
+    result_.housing = mechanism().add_element(
+        "housing", measures, std::make_shared<LinearLaw>(housing.stiffness), Eigen::VectorXd::Zero(size));
+  }
+
   /// The angle of the carrier is that of the position; what the ring's torsional support gives way is elastic.
   void add_rotations() {
     const Vector3d axis = Vector3d::UnitZ();
     const int carrier = number({Kind::carrier}), ring = number({Kind::ring});
     result_.carrier_hold =
         mechanism().hold("the rotation of the carrier", mechanism().rotation(carrier, Mechanism::ground, axis));
-    const auto turn = mechanism().rotation(ring, Mechanism::ground, axis);
+    const bool in_housing = stage_.housing && stage_.housing->ring_bearing;
+    const auto turn = mechanism().rotation(
+        ring, in_housing ? housing_place(*stage_.housing->ring_bearing) : Mechanism::ground, axis);
     const double torsional = stage_.plane.ring.torsional_support;
     if (torsional == rigid || torsional == 0) {
       result_.ring_hold = mechanism().hold("the rotation of the ring", turn);
       return;
     }
     const double stiffness = torsional * stage_.plane.ring.radius * stage_.plane.ring.radius;  // u = r_b phi
-    mechanism().add_element("ring torsional support", turn,
+    result_.ring_support = mechanism().add_element("ring torsional support", turn,
                             std::make_shared<LinearLaw>(Eigen::MatrixXd::Constant(1, 1, stiffness)),
                             Eigen::VectorXd::Zero(1));
   }
@@ -372,6 +420,7 @@ class Assembly {
   double time_;
   bool space_;
   StageMechanism result_;
+  int first_housing_place_ = 0;
   std::vector<Flank> coupled_;             // driving flanks of ring meshes
   std::vector<Mechanism::Measure> holds_;  // of bearings: the first ones of the mechanism
 };
@@ -412,6 +461,7 @@ std::vector<std::string> SpatialStage::reasons_for_space() const {
       if (weight.place != 0)
         reasons.push_back(
             fmt::format("the weight of the {} acts beside the middle of the face", name_of_body(weight.body)));
+  if (housing) reasons.emplace_back("the housing gives way");
   if (pins && !keeps_plane(*pins)) reasons.emplace_back("pins or carrier tilt the planets as they give way");
   for (const auto& b : bearings) {
     const bool paired =
@@ -429,6 +479,7 @@ bool SpatialStage::depends_on_carrier_angle() const {
   if (plane.carrier_speed == 0) return false;
   if (std::any_of(loads.begin(), loads.end(), [](const auto& load) { return load.stands_in_housing(); })) return true;
   if (gravity.head<2>().any() && !weights.empty()) return true;
+  if (housing) return true;
   for (const auto& b : bearings) {
     if (b.frame != StageFrame::housing) continue;
     if (b.matrix || b.row || b.x != b.y) return true;

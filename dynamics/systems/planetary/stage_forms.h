@@ -30,6 +30,10 @@ struct StageForms {
 [[nodiscard]] std::vector<LinearForm> relative_motion(const PlanetaryStage& stage, const StageForms& bodies,
                                                       const StageBody& body, const StageBody& on);
 
+/// Those of a bearing, in its place.
+[[nodiscard]] std::vector<LinearForm> bearing_motion(const PlanetaryStage& stage, const StageForms& bodies,
+                                                     const LinearBearing& bearing);
+
 /// A mesh of a stage in space beside that of the plane: what motions out of the plane add to the approach in the middle
 /// of the face, and the approach by which its end exceeds its middle.
 struct MeshOutOfPlane {

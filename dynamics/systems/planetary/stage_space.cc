@@ -23,14 +23,27 @@ bool stands_on_carrier(const LinearBearing& bearing) {
   return bearing.body.kind == StageBody::Kind::planet && bearing.on.kind == StageBody::Kind::carrier;
 }
 
-Eigen::MatrixXd seats_of_planets(const StageSpace& space) {
-  Eigen::MatrixXd all = space.between_planets;
-  for (const auto& b : space.bearings)
-    if (stands_on_carrier(b)) {
-      const Eigen::Index first = 5 * static_cast<Eigen::Index>(b.body.planet);
-      all.block<5, 5>(first, first) += b.stiffness;
-    }
+Eigen::MatrixXd StageSpace::whole(const LinearCoupling& coupling) const {
+  Eigen::MatrixXd all = coupling.stiffness;
+  Eigen::Index first = 0;
+  for (const std::size_t i : coupling.bearings) {
+    all.block<5, 5>(first, first) += bearings[i].stiffness;
+    first += 5;
+  }
   return all;
+}
+
+const LinearCoupling* StageSpace::coupling_of(std::size_t bearing) const {
+  for (const auto& coupling : couplings)
+    if (std::find(coupling.bearings.begin(), coupling.bearings.end(), bearing) != coupling.bearings.end())
+      return &coupling;
+  return nullptr;
+}
+
+const LinearCoupling* StageSpace::coupling_of_ring() const {
+  for (const auto& coupling : couplings)
+    if (coupling.turns_ring) return &coupling;
+  return nullptr;
 }
 
 std::string LinearBearing::element() const {
@@ -38,6 +51,32 @@ std::string LinearBearing::element() const {
   std::replace(result.begin(), result.end(), ' ', '_');
   return result;
 }
+
+namespace {
+
+void check_coupling(const StageSpace& space, const LinearCoupling& coupling, int planets) {
+  const Eigen::Index size = 5 * std::ssize(coupling.bearings) + (coupling.turns_ring ? 1 : 0);
+  const auto& k = coupling.stiffness;
+  if (k.rows() != size || k.cols() != size || !k.allFinite())
+    throw InputError(fmt::format("the stiffness of {} between {} bearings has {} x {} finite entries, not {} x {}",
+                                 coupling.name, coupling.bearings.size(), k.rows(), k.cols(), size, size));
+  int of_planets = 0;
+  for (const std::size_t i : coupling.bearings) {
+    const auto& b = space.bearings.at(i);
+    if (std::find(b.rigid.begin(), b.rigid.end(), true) != b.rigid.end())
+      throw InputError(fmt::format("bearing '{}' is rigid on a {} that gives way", b.name, name_of_body(b.on)));
+    if (!stands_on_carrier(b)) continue;
+    if (b.place != 0 || b.body.planet != of_planets++)
+      throw InputError(fmt::format(
+          "bearing '{}' of planet {} on a carrier that gives way, at z = {} m, is not the one in its middle", b.name,
+          b.body.planet + 1, b.place));
+  }
+  if (of_planets > 0 && (of_planets != planets || of_planets != std::ssize(coupling.bearings)))
+    throw InputError(fmt::format("a carrier that gives way has {} bearings, {} of them of its {} planets",
+                                 coupling.bearings.size(), of_planets, planets));
+}
+
+}  // namespace
 
 void StageSpace::check(int planets) const {
   for (const auto& [inertia, name] : {std::pair{tilt_inertia.sun, "sun"},
@@ -78,25 +117,7 @@ void StageSpace::check(int planets) const {
     if (b.on.kind == StageBody::Kind::planet || b.body.kind == StageBody::Kind::housing)
       throw InputError(fmt::format("bearing '{}' supports the housing or stands on a planet", b.name));
   }
-  if (between_planets.size() > 0) {
-    const Eigen::Index size = 5 * static_cast<Eigen::Index>(planets);
-    if (between_planets.rows() != size || between_planets.cols() != size || !between_planets.allFinite())
-      throw InputError(fmt::format("the stiffness between {} planets has {} x {} finite entries, not {} x {}", planets,
-                                   between_planets.rows(), between_planets.cols(), size, size));
-    std::vector<int> seats(static_cast<std::size_t>(planets));
-    for (const auto& b : bearings)
-      if (stands_on_carrier(b)) {
-        ++seats[static_cast<std::size_t>(b.body.planet)];
-        if (b.place != 0 || std::find(b.rigid.begin(), b.rigid.end(), true) != b.rigid.end())
-          throw InputError(fmt::format(
-              "bearing '{}' of a planet on a carrier that gives way is rigid or at z = {} m, not in the middle", b.name,
-              b.place));
-      }
-    for (std::size_t n = 0; n < seats.size(); ++n)
-      if (seats[n] != 1)
-        throw InputError(
-            fmt::format("planet {} has {} bearings on a carrier that gives way; it has one", n + 1, seats[n]));
-  }
+  for (const auto& coupling : couplings) check_coupling(*this, coupling, planets);
   const auto check_load = [&](const StageBody& body, bool finite) {
     check_body(body, "a load");
     if (body.kind == StageBody::Kind::housing || !finite)

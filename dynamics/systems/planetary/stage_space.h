@@ -32,6 +32,19 @@ struct LinearBearing {
 /// Whether it holds a planet on the carrier.
 [[nodiscard]] bool stands_on_carrier(const LinearBearing& bearing);
 
+/// Bearings that act on each other through what they stand on: planets through a carrier, others through the housing.
+struct LinearCoupling {
+  std::string name;                   ///< among springs
+  std::vector<std::size_t> bearings;  ///< numbers in StageSpace::bearings; none is rigid
+  /// Between the coordinates of different bearings, 5 each: N/m, N, N m/rad. The blocks of own coordinates are zero:
+  /// bearings contain them.
+  Eigen::MatrixXd stiffness;
+  /// One more coordinate, with its own entry: the rotation of the ring as a displacement on its base circle (m). It is
+  /// then the torsional support of the ring, on which it acts with -(K d + ring_preload).
+  bool turns_ring = false;
+  double ring_preload = 0;  ///< N
+};
+
 /// Force (N) in the middle of the face and moment (N m) on a body, in its axes.
 struct SpaceLoad {
   StageBody body;
@@ -64,10 +77,8 @@ struct StageSpace {
   };
   TiltInertia tilt_inertia;
   std::vector<LinearBearing> bearings;
-  /// Of a carrier that gives way: stiffness between the coordinates of different planets against it, each in its axes
-  /// and its middle, 5 per planet. Every planet then has one bearing on the carrier, in its middle, which contains the
-  /// stiffness of its own coordinates; their blocks are zero here. Empty: planets act on each other through no carrier.
-  Eigen::MatrixXd between_planets{};
+  /// That of planets, if any, is between one bearing of each, in its middle.
+  std::vector<LinearCoupling> couplings{};
   std::vector<SpaceLoad> loads;
   std::vector<StandingLoad> standing_loads{};
 
@@ -75,11 +86,13 @@ struct StageSpace {
   [[nodiscard]] bool depends_on_carrier_angle() const;
   /// Throws InputError with name and value of the quantity that cannot be used.
   void check(int planets) const;
+  /// The stiffness of bearings and between them, in the coordinates of a coupling.
+  [[nodiscard]] Eigen::MatrixXd whole(const LinearCoupling& coupling) const;
+  /// The one that has the bearing; null: none.
+  [[nodiscard]] const LinearCoupling* coupling_of(std::size_t bearing) const;
+  /// That which turns the ring; null: none.
+  [[nodiscard]] const LinearCoupling* coupling_of_ring() const;
 };
-
-/// The stiffness of all planets on the carrier, 5 coordinates per planet: that of their bearings and between them.
-/// `space` has StageSpace::between_planets.
-[[nodiscard]] Eigen::MatrixXd seats_of_planets(const StageSpace& space);
 
 /// A standing force in the axes of the carrier a quarter turn later; nothing along the axis.
 [[nodiscard]] LinearBearing::Vector quarter_turn_later(const LinearBearing::Vector& standing);

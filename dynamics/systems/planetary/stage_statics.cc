@@ -85,10 +85,12 @@ StaticPosition solved_position(const SpatialStage& stage, double cycles) {
   }
   for (const auto& bearing : made.bearings) p.bearings.push_back(bearing_in(made, bearing, at));
   for (int b = 0; b < made.mechanism.bodies(); ++b) {
-    const bool planet = b >= 3;  // or its pin
+    const int of_planets = stage.planets() * (stage.pins ? 2 : 1);  // or their pins
+    const bool planet = b >= 3 && b < 3 + of_planets, housing = b >= 3 + of_planets;
     const StageBody body{planet ? StageBody::Kind::planet : StageBody::Kind::housing,
                          planet ? (b - 3) % stage.planets() : 0};
-    const auto axes = frame_axes(stage, planet ? StageFrame::planet : StageFrame::carrier, body, p.time);
+    const auto frame = planet ? StageFrame::planet : housing ? StageFrame::housing : StageFrame::carrier;
+    const auto axes = frame_axes(stage, frame, body, p.time);
     p.bodies.push_back(
         {axes.transpose() * at.motion.segment<3>(6 * b), axes.transpose() * at.motion.segment<3>(6 * b + 3)});
   }

@@ -24,7 +24,8 @@ struct StaticBearing {
   double largest_element = 0;                        ///< N, of its rolling elements; 0 without
 };
 
-/// Displacement of a body in its own axes: planets radial, tangential; others those of the carrier.
+/// Displacement of a body in its own axes: planets radial, tangential; places of a housing that gives way those of the
+/// housing; others those of the carrier.
 struct StaticBody {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero(), rotation = Eigen::Vector3d::Zero();  ///< m, rad
 };
@@ -35,7 +36,7 @@ struct StaticPosition {
   double carrier_angle = 0;                             ///< rad, in the housing, from time 0
   std::vector<StaticMesh> sun_meshes{}, ring_meshes{};  ///< one per planet
   std::vector<StaticBearing> bearings{};
-  std::vector<StaticBody> bodies{};            ///< sun, ring, carrier, planets
+  std::vector<StaticBody> bodies{};            ///< sun, ring, carrier, planets, their pins, places of the housing
   double carrier_torque = 0, ring_torque = 0;  ///< N m, on the stage from without; the ring's as far as it is held
   double residual_relative = 0;
 };

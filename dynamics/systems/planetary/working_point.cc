@@ -15,15 +15,16 @@ using Kind = StageBody::Kind;
 using Stiffness = LinearBearing::Stiffness;
 using Vector = LinearBearing::Vector;
 
-/// The mean of a stiffness that stands in the housing, as the carrier turns past it.
-Stiffness mean_over_turn(const Stiffness& stiffness) {
+/// The mean of a stiffness that stands in the housing, as the carrier turns past it: 5 coordinates each, and one about
+/// the axis at the end, if any.
+Eigen::MatrixXd mean_over_turn(const Eigen::MatrixXd& stiffness) {
   constexpr int angles = 8;  // second harmonics of the angle vanish
-  Stiffness sum = Stiffness::Zero();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(stiffness.rows(), stiffness.cols());
   for (int k = 0; k < angles; ++k) {
     const Eigen::Matrix2d turn = Eigen::Rotation2Dd(2 * std::numbers::pi * k / angles).toRotationMatrix();
-    Stiffness all = Stiffness::Identity();
-    all.topLeftCorner<2, 2>() = turn;
-    all.bottomRightCorner<2, 2>() = turn;
+    Eigen::MatrixXd all = Eigen::MatrixXd::Identity(stiffness.rows(), stiffness.cols());
+    for (Eigen::Index first = 0; first + 5 <= all.rows(); first += 5)
+      all.block<2, 2>(first, first) = all.block<2, 2>(first + 3, first + 3) = turn;
     sum += all.transpose() * stiffness * all / angles;
   }
   return sum;
@@ -63,15 +64,68 @@ Linearised linear(const StageMechanism::Bearing& bearing, const Mechanism::Equil
   return found;
 }
 
+/// The forces of a bearing in the housing stand there, but for that along the axis.
+void stand(LinearBearing& bearing) {
+  constexpr Eigen::Index axial = 2;
+  bearing.standing = bearing.preload;
+  bearing.preload = bearing.standing[axial] * Vector::Unit(axial);
+  bearing.standing[axial] = 0;
+}
+
 /// A bearing in the housing under loads that stand there: its mean stiffness, and the force beside it that stands.
 LinearBearing under_standing_loads(const Linearised& found) {
   LinearBearing result = found.bearing;
   result.stiffness = mean_over_turn(found.bearing.stiffness);
-  result.standing = result.preload + (found.bearing.stiffness - result.stiffness) * found.deflection;
-  constexpr Eigen::Index axial = 2;
-  result.preload = result.standing[axial] * Vector::Unit(axial);
-  result.standing[axial] = 0;
+  result.preload += (found.bearing.stiffness - result.stiffness) * found.deflection;
+  stand(result);
   return result;
+}
+
+/// Linear springs on something elastic: they give way together until the forces are equal.
+struct Series {
+  Eigen::MatrixXd stiffness;
+  Eigen::VectorXd preload;
+};
+/// `springs`, `preload`: K and f of forces K d + f. `held`: rows of deflections of the springs that stay zero. `below`:
+/// stiffness of what they stand on, in the same coordinates.
+Series in_series(const Eigen::MatrixXd& springs, const Eigen::VectorXd& preload, const Eigen::MatrixXd& held,
+                 const Eigen::MatrixXd& below) {
+  const Eigen::Index size = below.rows();
+  const Eigen::MatrixXd free = held.rows() == 0 ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size))
+                                                : Eigen::MatrixXd(held.fullPivLu().kernel());
+  Series result{below, Eigen::VectorXd::Zero(size)};
+  if (free.cwiseAbs().maxCoeff() == 0) return result;  // the kernel of what holds all is a column of zeros
+  const Eigen::MatrixXd inner = free.transpose() * (springs + below) * free;
+  const Eigen::MatrixXd share = below * free * inner.inverse() * free.transpose();
+  result.stiffness -= share * below;
+  result.stiffness = (result.stiffness + result.stiffness.transpose()).eval() / 2;
+  result.preload = share * preload;
+  return result;
+}
+
+void add_row(Eigen::MatrixXd& rows, Eigen::Index first, const Eigen::RowVectorXd& row) {
+  rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+  rows.bottomRows<1>().setZero();
+  rows.bottomRows<1>().segment(first, row.size()) = row;
+}
+
+/// Takes the stiffness of every bearing's own coordinates out of that of all.
+std::vector<Stiffness> own_blocks(Eigen::MatrixXd& stiffness, std::size_t bearings) {
+  std::vector<Stiffness> own;
+  for (std::size_t n = 0; n < bearings; ++n) {
+    auto block = stiffness.block<5, 5>(5 * static_cast<Eigen::Index>(n), 5 * static_cast<Eigen::Index>(n));
+    own.push_back(block);
+    block.setZero();
+  }
+  return own;
+}
+
+/// Is what remains of a stiffness between bearings no more than rounding of `whole`?
+bool couples(const Eigen::MatrixXd& between, const Eigen::MatrixXd& whole) {
+  constexpr double rounding = 1e-9;
+  const Eigen::VectorXd inverse =
+      whole.diagonal().cwiseSqrt().unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
+  return (inverse.asDiagonal() * between * inverse.asDiagonal()).cwiseAbs().maxCoeff() > rounding;
 }
 
 /// Puts the bearings of planets on their pins in series with these: one in the middle of every planet. `pins`:
@@ -88,43 +142,77 @@ void put_on_pins(StageSpace& space, const std::vector<std::vector<LinearBearing>
       sum.block<5, 5>(first, first) += move.transpose() * b.stiffness * move;
       preload.segment<5>(first) += move.transpose() * b.preload;
       for (Eigen::Index i = 0; i < 5; ++i)
-        if (b.rigid.at(static_cast<std::size_t>(i))) {
-          held.conservativeResize(held.rows() + 1, Eigen::NoChange);
-          held.bottomRows<1>().setZero();
-          held.bottomRows<1>().segment<5>(first) = move.row(i);
-        }
+        if (b.rigid.at(static_cast<std::size_t>(i))) add_row(held, first, move.row(i));
     }
   }
-  // Motions of the planet against its pin: the pin gives way until the forces are equal.
-  const Eigen::MatrixXd free = held.rows() == 0 ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size))
-                                                : Eigen::MatrixXd(held.fullPivLu().kernel());
-  Eigen::MatrixXd stiffness = pins;
-  if (free.cwiseAbs().maxCoeff() > 0) {  // the kernel of what holds all is a column of zeros
-    const Eigen::MatrixXd inner = free.transpose() * (sum + pins) * free;
-    const Eigen::MatrixXd share = pins * free * inner.inverse() * free.transpose();
-    stiffness -= share * pins;
-    stiffness = (stiffness + stiffness.transpose()).eval() / 2;
-    preload = share * preload;
-  } else {
-    preload.setZero();
-  }
+  auto all = in_series(sum, preload, held, pins);
+  LinearCoupling coupling{"planet_bearing", {}, all.stiffness};
+  const auto own = own_blocks(coupling.stiffness, bearings.size());
   for (std::size_t n = 0; n < bearings.size(); ++n) {
-    const auto first = 5 * static_cast<Eigen::Index>(n);
     LinearBearing result;
     result.name = "bearing";
     result.body = {Kind::planet, static_cast<int>(n)};
     result.on = {Kind::carrier};
-    result.stiffness = stiffness.block<5, 5>(first, first);
-    result.preload = preload.segment<5>(first);
+    result.stiffness = own[n];
+    result.preload = all.preload.segment<5>(5 * static_cast<Eigen::Index>(n));
+    coupling.bearings.push_back(space.bearings.size());
     space.bearings.push_back(std::move(result));
-    stiffness.block<5, 5>(first, first).setZero();
   }
-  // What single pins leave of it by rounding is nothing.
-  constexpr double rounding = 1e-9;
-  const Eigen::VectorXd scale = pins.diagonal().cwiseSqrt();
-  const Eigen::VectorXd inverse = scale.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
-  if ((inverse.asDiagonal() * stiffness * inverse.asDiagonal()).cwiseAbs().maxCoeff() > rounding)
-    space.between_planets = stiffness;
+  if (couples(coupling.stiffness, pins)) space.couplings.push_back(std::move(coupling));
+}
+
+/// Displacement and tilt of a central body in a place on the axis.
+Vector motion_at(const SpatialStage& stage, const Mechanism::Equilibrium& at, const StageBody& body, double place) {
+  const Eigen::Index first = 6 * body_number(stage, body);
+  return to_place(place) * at.motion.segment<5>(first);
+}
+
+/// Puts the bearings of the housing on what it gives way, in series: their mean over a turn where the carrier turns
+/// past it. `found`: of HousingStructure::bearings, in the state `at`.
+void put_in_housing(StageSpace& space, const SpatialStage& stage, const std::vector<Linearised>& found,
+                    const StageMechanism& made, const Mechanism::Equilibrium& at) {
+  const auto& housing = *stage.housing;
+  const Eigen::Index size = housing.stiffness.rows(), last = size - 1;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size), held(0, size), below = housing.stiffness;
+  Eigen::VectorXd preload = Eigen::VectorXd::Zero(size), motion = Eigen::VectorXd::Zero(size);
+  for (std::size_t n = 0; n < found.size(); ++n) {
+    const auto first = 5 * static_cast<Eigen::Index>(n);
+    const auto& b = found[n].bearing;
+    sum.block<5, 5>(first, first) = b.stiffness;
+    preload.segment<5>(first) = b.preload;
+    motion.segment<5>(first) = motion_at(stage, at, b.body, b.place);
+    for (Eigen::Index i = 0; i < 5; ++i)
+      if (b.rigid.at(static_cast<std::size_t>(i))) add_row(held, first + i, Eigen::RowVectorXd::Ones(1));
+  }
+  const double radius = stage.plane.ring.radius;
+  if (housing.ring_bearing) {  // u = r_b phi
+    below.row(last) /= radius;
+    below.col(last) /= radius;
+    motion[last] = radius * at.motion[6 * body_number(stage, {Kind::ring}) + 5];
+    if (made.ring_support >= 0)
+      sum(last, last) = stage.plane.ring.torsional_support;
+    else
+      add_row(held, last, Eigen::RowVectorXd::Ones(1));
+  }
+  auto all = in_series(sum, preload, held, below);
+  const bool turns = stage.plane.carrier_speed != 0;
+  const Eigen::MatrixXd mean = turns ? mean_over_turn(all.stiffness) : all.stiffness;
+  const Eigen::VectorXd beside = all.preload + (all.stiffness - mean) * motion;
+  LinearCoupling coupling{"housing", {}, mean, housing.ring_bearing.has_value()};
+  if (coupling.turns_ring) coupling.ring_preload = beside[last];
+  const auto own = own_blocks(coupling.stiffness, found.size());
+  for (std::size_t n = 0; n < found.size(); ++n) {
+    LinearBearing result = found[n].bearing;
+    result.rigid.fill(false);
+    result.stiffness = own[n];
+    result.standing.setZero();
+    result.preload = beside.segment<5>(5 * static_cast<Eigen::Index>(n));
+    if (turns) stand(result);
+    coupling.bearings.push_back(space.bearings.size());
+    space.bearings.push_back(std::move(result));
+  }
+  if (coupling.turns_ring || couples(coupling.stiffness, housing.stiffness))
+    space.couplings.push_back(std::move(coupling));
 }
 
 /// The loads under which planets and bearings on the carrier are linearised. Loads that stand in the housing have their
@@ -237,10 +325,16 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
   space.tilt_inertia = inertia;
   const bool in_space = !stage.reasons_for_space().empty();
   std::vector<std::vector<LinearBearing>> of_planets(static_cast<std::size_t>(stage.planets()));
+  const auto housed = stage.housing ? stage.housing->bearings : std::vector<std::size_t>{};
+  std::vector<Linearised> in_housing(housed.size());
   for (std::size_t i = 0; i < made.bearings.size(); ++i) {
     const auto& bearing = made.bearings[i];
     if (bearing.body.kind == Kind::pin) continue;
     const bool given = i < turning.bearings.size();
+    if (const auto place = std::find(housed.begin(), housed.end(), i); place != housed.end()) {
+      in_housing[static_cast<std::size_t>(place - housed.begin())] = linear(made_under_all.bearings[i], under_all);
+      continue;
+    }
     const bool on_housing = bearing.on.kind == Kind::housing && turns;
     auto found = on_housing && stands ? under_standing_loads(linear(made_under_all.bearings[i], under_all))
                                       : linear(bearing, at).bearing;
@@ -255,13 +349,15 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
       space.bearings.push_back(std::move(found));
   }
   if (stage.pins) put_on_pins(space, of_planets, *stage.pins);
+  if (stage.housing) put_in_housing(space, stage, in_housing, made_under_all, under_all);
   if (!in_space) {
     for (auto& b : space.bearings) flatten(b);
-    for (Eigen::Index i = 0; i < space.between_planets.rows(); ++i)
-      if (i % 5 >= 2) {
-        space.between_planets.row(i).setZero();
-        space.between_planets.col(i).setZero();
-      }
+    for (auto& coupling : space.couplings)
+      for (Eigen::Index i = 0; i < coupling.stiffness.rows(); ++i)
+        if (i % 5 >= 2) {
+          coupling.stiffness.row(i).setZero();
+          coupling.stiffness.col(i).setZero();
+        }
     for (const auto kind : {Kind::sun, Kind::ring, Kind::carrier}) space.bearings.push_back(plane_guide({kind}));
     for (int n = 0; n < stage.planets(); ++n) space.bearings.push_back(plane_guide({Kind::planet, n}));
   }

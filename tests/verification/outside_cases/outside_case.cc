@@ -1,6 +1,8 @@
 #include "tests/verification/outside_cases/outside_case.h"
 
 #include <boost/test/unit_test.hpp>
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -40,11 +42,23 @@ fs::path OutsideCase::run(const std::string& file) const {
   return folder_.path() / file;
 }
 
+fs::path OutsideCase::solve(const std::string& file, const std::string& arguments) const {
+  return with_arguments("solve", file, arguments);
+}
+
 fs::path OutsideCase::statics(const std::string& file, const std::string& arguments) const {
-  const auto command = "statics --quiet " + arguments + " -o '" + file + "' '" + scene(file).string() + "'";
-  const auto outcome = run_program(folder_.path(), command);
-  BOOST_TEST_REQUIRE(outcome.status == 0, command << ": " << outcome.err);
-  return folder_.path() / file;
+  return with_arguments("statics", file, arguments);
+}
+
+fs::path OutsideCase::with_arguments(const std::string& command, const std::string& file,
+                                     const std::string& arguments) const {
+  auto out = file + arguments;
+  std::replace_if(
+      out.begin(), out.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  const auto line = command + " --quiet " + arguments + " -o '" + out + "' '" + scene(file).string() + "'";
+  const auto outcome = run_program(folder_.path(), line);
+  BOOST_TEST_REQUIRE(outcome.status == 0, line << ": " << outcome.err);
+  return folder_.path() / out;
 }
 
 }  // namespace annulus::test

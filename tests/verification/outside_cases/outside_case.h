@@ -26,10 +26,15 @@ class OutsideCase {
   /// `annulus check`, then `annulus run`; the folder of its results, which lives as long as this. A failed check of the
   /// test when either fails.
   [[nodiscard]] std::filesystem::path run(const std::string& file) const;
+  /// `annulus solve` with further arguments; the folder of its results.
+  [[nodiscard]] std::filesystem::path solve(const std::string& file, const std::string& arguments) const;
   /// `annulus statics` with further arguments; the folder of its results.
   [[nodiscard]] std::filesystem::path statics(const std::string& file, const std::string& arguments) const;
 
  private:
+  [[nodiscard]] std::filesystem::path with_arguments(const std::string& command, const std::string& file,
+                                                     const std::string& arguments) const;
+
   std::string name_;
   std::map<std::string, PrintedValue> printed_;
   TemporaryFolder folder_;
