@@ -116,6 +116,9 @@ class Union {
     known->kinds.push_back(kind);
     if (p.presence == Parameter::Presence::required) known->required_for.push_back(kind);
     if (known->note.empty()) known->note = p.note;
+    for (const auto& choice : p.choices)
+      if (std::find(known->choices.begin(), known->choices.end(), choice) == known->choices.end())
+        known->choices.push_back(choice);
     add_rules(known->only_if, p.only_if, table.path, kind);
     add_rules(known->required_if, p.required_if, table.path, kind);
     add_rules(known->refused_if, p.refused_if, table.path, kind);

@@ -124,6 +124,7 @@ class Mechanism::Solver {
       best = std::min(best, now);
     }
     result.motion = basis_ * y;
+    check_small(result.motion);
     find_holding(result);
     return result;
   }
@@ -167,6 +168,22 @@ class Mechanism::Solver {
     throw InputError(fmt::format("nothing resists a motion of {} {}{}: give {} a bearing or support that does",
                                  fmt::join(names, ", "), words[largest % 6], names.size() > 1 ? " together" : "",
                                  names.size() > 1 ? "one of them" : "it"));
+  }
+
+  /// What is left of a bearing in its play lets a body go whose load nothing bears.
+  void check_small(const Eigen::VectorXd& motion) const {
+    constexpr double large = 0.1;
+    for (int b = 0; b < mechanism_.bodies(); ++b) {
+      const Eigen::Vector3d moved = motion.segment<3>(6 * static_cast<Eigen::Index>(b));
+      Eigen::Index along = 0;
+      const double most = moved.cwiseAbs().maxCoeff(&along);
+      if (most <= large * mechanism_.length_) continue;
+      constexpr const char* words[] = {"x", "y", "z"};
+      throw InputError(fmt::format(
+          "nothing bears the load of the {} along {}{}: it would move by {:.3g} m. Rows of rolling elements hold in one "
+          "direction along the axis, against a displacement along +z with a positive contact angle",
+          mechanism_.body(b).name, moved[along] < 0 ? "-" : "+", words[along], most));
+    }
   }
 
   /// Where everything is in contact and pulls as well.

@@ -58,7 +58,8 @@ class Mechanism {
   };
   /// Newton's method with a search along each step, from the motion `start` where it is given. Throws InputError,
   /// naming the motion, where a body can move and nothing resists, or two holds do the same; SolverError where no
-  /// equilibrium is found.
+  /// equilibrium is found. Also refuses motions of a tenth of `length` and more, for which nothing but the rest of
+  /// bearings in their play is there.
   [[nodiscard]] Equilibrium solve(const Eigen::VectorXd& start = {}) const;
 
  private:

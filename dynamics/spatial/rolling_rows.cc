@@ -30,12 +30,27 @@ void check(const RollingRow& row) {
   if ((ball || row.contact_angle != 0) && !(row.pitch_diameter > row.diameter))
     throw InputError(fmt::format("a row of {} of {:g} m has a pitch diameter of {:g} m; it must be larger", name,
                                  row.diameter, row.pitch_diameter));
+  const double apart = row.pitch_diameter * std::sin(std::numbers::pi / row.count);
+  if (row.pitch_diameter > 0 && !(apart > row.diameter))
+    throw InputError(fmt::format("{} {} of {:g} m on a diameter of {:g} m overlap: the middles of neighbours are {:.4g} "
+                                 "m apart",
+                                 row.count, name, row.diameter, row.pitch_diameter, apart));
+  if (!ball && row.contact_angle != 0 && !(row.pitch_diameter > row.length * std::abs(std::sin(row.contact_angle))))
+    throw InputError(fmt::format("rollers of a length of {:g} m reach the axis at their end: the pitch diameter is {:g} "
+                                 "m, the contact angle {:g} rad",
+                                 row.length, row.pitch_diameter, row.contact_angle));
   if (!(std::abs(row.contact_angle) < std::numbers::pi / 2))
     throw InputError(fmt::format("a row of {} has a contact angle of {:g} rad, not between -pi/2 and pi/2", name,
                                  row.contact_angle));
   if (ball && !(row.inner_groove > 0.5 && row.outer_groove > 0.5))
     throw InputError(fmt::format("grooves of {:g} and {:g} of the ball's diameter: their radii must exceed its half",
                                  row.inner_groove, row.outer_groove));
+  const double most =
+      2 * (row.inner_groove + row.outer_groove - 1) * row.diameter * std::cos(row.contact_angle);
+  if (ball && !(row.clearance < most))
+    throw InputError(fmt::format("a clearance of {:g} m takes the balls out of their grooves, whose centres are {:.4g} m "
+                                 "apart across the axis",
+                                 row.clearance, most / 2));
 }
 
 std::vector<int> coordinates_of(const RollingRow& row, bool in_space) {
@@ -143,7 +158,8 @@ double ball_stiffness(const RollingRow& row) {
   for (const auto& [path, groove] :
        {std::pair{ratio / (1 - ratio), row.inner_groove}, {-ratio / (1 + ratio), row.outer_groove}}) {
     const double sum = 2 + path - 1 / (2 * groove), difference = path + 1 / (2 * groove);
-    compliance += point_contact(1, 2 / d * sum, difference / sum, steel_modulus).approach;
+    // Where the difference is negative the ellipse lies across the path.
+    compliance += point_contact(1, 2 / d * sum, std::abs(difference) / sum, steel_modulus).approach;
   }
   return std::pow(compliance, -1.5);
 }
@@ -155,7 +171,8 @@ class BallRowLaw final : public RollingRowLaw {
         stiffness_(ball_stiffness(row)),
         distance_((row.inner_groove + row.outer_groove - 1) * row.diameter) {
     const double angle = inner_angle(row);
-    const double radius = row.pitch_diameter / 2 + (row.inner_groove - 0.5) * row.diameter * std::cos(angle);
+    const double from_ball = (row.inner_groove - 0.5) * row.diameter;
+    const double radius = row.pitch_diameter / 2 + from_ball * std::cos(angle), place = from_ball * std::sin(angle);
     apart_ = {distance_ * std::cos(angle) - row.clearance / 2, distance_ * std::sin(angle)};
     in_contact_ = Eigen::MatrixXd::Zero(size(), size());
     const Eigen::Vector2d along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
@@ -164,8 +181,8 @@ class BallRowLaw final : public RollingRowLaw {
       // The centre of the inner groove moves in the plane of the ball and the axis.
       auto& measure = measures_.emplace_back(2, size());
       const double around = place_of(row, ball);
-      measure.row(0) = sign_of(row) * taken(displacement(around, radius, 0, 0), coordinates());
-      measure.row(1) = sign_of(row) * taken(displacement(around, radius, 0, std::numbers::pi / 2), coordinates());
+      measure.row(0) = sign_of(row) * taken(displacement(around, radius, place, 0), coordinates());
+      measure.row(1) = sign_of(row) * taken(displacement(around, radius, place, std::numbers::pi / 2), coordinates());
       // When half of the balls carry.
       in_contact_ += slope / 2 * measure.transpose() *
                      (exponent * along * along.transpose() + usual_approach / distance_ * across * across.transpose()) *

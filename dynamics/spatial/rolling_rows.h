@@ -45,8 +45,8 @@ class RollingRowLaw : public ElasticLaw {
 };
 
 /// The law of a row, Hertz contacts after [ISO16281]. The first element stands on the x axis. `in_space`: false leaves
-/// out z and the tilts. Throws InputError for sizes that are not positive, fewer than three elements, and a contact
-/// angle of a right angle or more.
+/// out z and the tilts. Throws InputError for sizes that are not positive, fewer than three elements, elements that
+/// overlap or reach the axis, a contact angle of a right angle or more, and a clearance beyond the grooves.
 ///
 /// Rollers are cut into slices along their length, whose force is c_s delta^(10/9) with c_s = 35948 N/mm^(10/9)
 /// (L_we / mm)^(8/9) over the number of slices. delta is the approach of the raceways along the contact angle at the

@@ -67,7 +67,8 @@ Csv table_of(const std::vector<std::pair<std::string, Matrix5>>& places, double 
 std::string bearings(const std::string& carrier, const std::string& ring) {
   return bearing("planets", "planet", "radial_N_per_m = 3e9\naxial_N_per_m = 1e9\ntilt_Nm_per_rad = 1e6\n") +
          bearing("main up", "carrier", "at_mm = -280\n" + carrier) +
-         bearing("main down", "carrier", "at_mm = 300\n" + carrier) + bearing("flange", "ring", "at_mm = 100\n" + ring) +
+         bearing("main down", "carrier", "at_mm = 300\n" + carrier) +
+         bearing("flange", "ring", "at_mm = 100\n" + ring) +
          bearing("spline", "sun", "at_mm = 700\naxial_N_per_m = 3e8\ntilt_Nm_per_rad = 1e6\nradial_N_per_m = 5e7\n");
 }
 
@@ -75,14 +76,16 @@ const std::string diagonal = "radial_N_per_m = 3e9\naxial_N_per_m = 1e9\ntilt_Nm
 const std::string file = "[housing]\nstiffness_file = \"housing.csv\"\n";
 
 std::string loaded(const std::string& scene, double side = 1) {
-  return scene + fmt::format("[gravity]\ndirection_deg = {}\n[[load]]\nname = \"rotor\"\nbody = \"carrier\"\n"
-                             "moment_Nm = [{}, 100e3, 0]\n",
-                             side * 250, side * 50e3);
+  return scene + fmt::format(
+                     "[gravity]\ndirection_deg = {}\n[[load]]\nname = \"rotor\"\nbody = \"carrier\"\n"
+                     "moment_Nm = [{}, 100e3, 0]\n",
+                     side * 250, side * 50e3);
 }
 
 std::string text_of(const Matrix5& matrix) {
   std::string text;
-  for (const double value : matrix.reshaped<Eigen::RowMajor>()) text += fmt::format("{}{}", text.empty() ? "" : ", ", value);
+  for (const double value : matrix.reshaped<Eigen::RowMajor>())
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", value);
   return "stiffness_5x5_N_m_rad = [" + text + "]\n";
 }
 
@@ -125,8 +128,7 @@ BOOST_AUTO_TEST_CASE(mirror_image_of_a_housing) {
     auto csv = table_of({{"main_up", place(0, side)}, {"main_down", place(1, side)}, {"flange", place(2, side)}}, side);
     csv.columns.emplace_back("flange_about_z_rad");
     const std::vector<double> on_flange{side * 3e6, 2e6, side * 1e6, 2e5, side * 1e5};
-    for (std::size_t i = 0; i < csv.rows.size(); ++i)
-      csv.rows[i].push_back(i < 11 ? 0 : on_flange[i - 11]);
+    for (std::size_t i = 0; i < csv.rows.size(); ++i) csv.rows[i].push_back(i < 11 ? 0 : on_flange[i - 11]);
     std::vector<double> last(11, 0.0);
     last.insert(last.end(), on_flange.begin(), on_flange.end());
     last.push_back(4e8);

@@ -343,6 +343,25 @@ BOOST_AUTO_TEST_CASE(a_carrier_that_gives_way) {
   refused("planet1_x_m\n1\n", "3 planets have 5 or 6 coordinates each");
 }
 
+// A row of rollers with a contact angle holds its body in one direction along the axis. In the other one what is left of
+// it in its play would let the carrier go.
+BOOST_AUTO_TEST_CASE(a_row_that_is_loaded_the_wrong_way_is_refused) {
+  const test::TemporaryFolder folder("statics_8");
+  const auto scene = [](double thrust) {
+    return helical_stage() + bearing("spline", "sun", "radial_N_per_m = 1e9\naxial_N_per_m = 3e8\ntilt_Nm_per_rad = 1e8\n") +
+           bearing("planets", "planet", "radial_N_per_m = 2e9\naxial_N_per_m = 1e9\ntilt_Nm_per_rad = 1e8\n") +
+           bearing("row", "carrier",
+                   "rollers = 30\nroller_length_mm = 40\nroller_diameter_mm = 30\npitch_diameter_mm = 400\n"
+                   "contact_angle_deg = 20\n") +
+           fmt::format("[[load]]\nname = \"thrust\"\nbody = \"carrier\"\nforce_N = [0, 0, {}]\n", thrust);
+  };
+  (void)solved(folder, scene(50e3));
+  write_file(folder.path() / "scene.toml", scene(-50e3));
+  const auto outcome = test::run_program(folder.path(), "statics scene.toml --out out --quiet");
+  BOOST_TEST(outcome.status == 2);
+  BOOST_TEST(outcome.err.find("nothing bears the load of the carrier along -z") != std::string::npos, outcome.err);
+}
+
 BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
   const auto expect_refusal = [](const std::string& tables, const std::string& words) {
     const auto refusal = test::scene_refusal(helical_stage() + tables);
@@ -369,7 +388,8 @@ BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
   const std::string rollers = "rollers = 20\nroller_length_mm = 20\nroller_diameter_mm = 20\n";
   expect_refusal(bearing("a", "carrier", rollers + "contact_angle_deg = 12\n"), "give bearing.pitch_diameter_mm");
   expect_refusal(bearing("a", "carrier", rollers + "contact_angle_deg = 12\npitch_diameter_mm = 15\n"),
-                 "larger than the diameter of the rolling elements, 20 mm");
+                 "it must be larger");
+  expect_refusal(bearing("a", "carrier", rollers + "pitch_diameter_mm = 100\n"), "overlap");
   expect_refusal(
       bearing("a", "carrier", rollers + "contact_angle_deg = 12\npitch_diameter_mm = 300\naxial_N_per_m = 1e9\n"),
       "hold along the axis by themselves");

@@ -91,6 +91,7 @@ BOOST_AUTO_TEST_CASE(elements_share_a_radial_load) {
     const std::string contact = point ? "point contact" : "line contact";
     const double n = point ? 1.5 : 10.0 / 9, tau = 2 * std::numbers::pi;
     auto row = point ? balls(400, angle) : rollers(400, angle);
+    row.pitch_diameter = 3;  // the balls have room
     // Far apart: the contact angle of the balls stays.
     row.inner_groove = row.outer_groove = 0.7;
     const auto law = law_of(row, true);
@@ -172,6 +173,16 @@ BOOST_AUTO_TEST_CASE(angular_contact_balls) {
     record.close("thrust", "N", law_of(row, true)->at(vector({0, 0, thrust, 0, 0})).force[2],
                  16 * std::pow(delta / compliance, 1.5) * std::sin(loaded), 1e-6, "what holds the body in its play");
   }
+  // Under small loads the balls press along their contact angle, through the middle of the ball.
+  for (const auto ring : {Ring::inner, Ring::outer}) {
+    auto light = row;
+    light.ring = ring;
+    light.inner_groove = 0.9;
+    const auto pressed = law_of(light, true)->at(vector({1e-8, 0, 1e-8, 0, 0}));
+    const double place = (ring == Ring::inner ? -1 : 1) * row.pitch_diameter / 2 * std::tan(angle);
+    record.close("moment about y over the force along x", "m", pressed.force[4] / pressed.force[0], place, 1e-4,
+                 "change of the contact angle, what holds the body in its play");
+  }
   // A clearance takes its half off the way of a radial displacement.
   auto loose = balls(16);
   loose.clearance = 30e-6;
@@ -227,9 +238,23 @@ BOOST_AUTO_TEST_CASE(rows_that_are_refused) {
   row.pitch_diameter = 0;
   refused(row, "pitch diameter");
   refused(rollers(20, 95 * deg), "contact angle");
-  row = balls(20);
+  row = balls(16);
   row.outer_groove = 0.5;
   refused(row, "grooves");
+  refused(balls(18), "overlap");
+  refused(rollers(20, 0, 32e-3), "overlap");
+  row = balls(16);
+  row.clearance = 2.3e-3;
+  refused(row, "out of their grooves");
+  row = rollers(20, 60 * deg);
+  row.length = 0.24;
+  refused(row, "reach the axis");
+  // A groove so wide that the ellipse lies across it.
+  row = balls(6);
+  row.diameter = 40e-3;
+  row.pitch_diameter = 120e-3;
+  row.outer_groove = 3;
+  BOOST_TEST(law_of(row, true)->at(vector({1e-5, 0, 0, 0, 0})).force[0] > 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "app/systems/planetary/point_stiffness.h"
-#include "app/systems/planetary/space_input.h"
+#include "app/systems/shared/point_stiffness.h"
+#include "app/systems/shared/space_input.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "core/errors.h"
 #include "dynamics/spatial/carrier_structure.h"
@@ -66,7 +66,8 @@ std::optional<Eigen::MatrixXd> pins_in_space(const Scene& scene, const std::vect
     carrier.web_length = *structure->web_length;
     carrier.web_width = *structure->web_width;
     carrier.web_depth = *structure->web_depth;
-    carrier.first_web = structure->first_web.value_or(M_PI / scene.stage.planets);
+    const double to_second = planet_angles.size() > 1 ? planet_angles[1] / 2 : M_PI;
+    carrier.first_web = structure->first_web.value_or(structure->mirrored ? to_second - M_PI : to_second);
     carrier.youngs_modulus = scene.material.youngs_modulus;
     carrier.poisson_ratio = scene.material.poisson_ratio;
     carrier.shaft = structure->shaft;

@@ -18,7 +18,7 @@
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/ring_structures.h"
-#include "app/systems/planetary/space_tables.h"
+#include "app/systems/planetary/structure_tables.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/profile_shifts.h"
@@ -55,7 +55,7 @@ class PlanetaryChecker : KeyChecks {
     tolerances();
     check_strain_gauges(scene_, problems_);
     check_pitch_deviations(scene_, problems_);
-    check_space(scene_, problems_);
+    check_structure(scene_, problems_);
     check_power_flow(scene_, problems_);
     rotors();
   }

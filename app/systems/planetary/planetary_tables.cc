@@ -3,7 +3,7 @@
 #include "app/scene/gear_tables.h"
 #include "app/systems/planetary/pitch_deviations.h"
 #include "app/systems/planetary/planetary_scene.h"
-#include "app/systems/planetary/space_tables.h"
+#include "app/systems/planetary/structure_tables.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/rotors.h"
 #include "geometry/flank_tolerances.h"
@@ -188,8 +188,8 @@ Table supports_table() {
       .infinite()
       .word("rigid", rigid)
       .word("floating", 0)
-      .absent("no lumped model, or a single planet: rigid")
-      .required_if(given("[dynamics]") && !is("stage.planets", {"1"}),
+      .absent("no lumped model, a single planet, or a [[bearing]] that holds the sun: rigid")
+      .required_if(given("[dynamics]") && !is("stage.planets", {"1"}) && !given("[bearing]"),
                    "it has the largest effect on load sharing; a rigid sun does not equalise the planet loads");
   bearing("ring_N_per_m", &SupportInput::ring, "Support of the ring's axis in any direction.");
   bearing("carrier_N_per_m", &SupportInput::carrier, "Support of the carrier's axis in any direction.");
@@ -358,7 +358,7 @@ std::vector<Table> planetary_tables() {
       tolerances_table(),
       strain_gauge_table(),
       optimised_ring_key()};
-  auto space = space_tables();
+  auto space = structure_tables();
   std::move(space.begin(), space.end(), std::back_inserter(tables));
   return tables;
 }

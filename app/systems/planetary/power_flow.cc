@@ -9,7 +9,7 @@
 
 #include "app/scene/key_checks.h"
 #include "app/systems/planetary/pitch_deviations.h"
-#include "app/systems/planetary/space_tables.h"
+#include "app/systems/planetary/structure_tables.h"
 #include "core/units.h"
 
 namespace annulus::app {

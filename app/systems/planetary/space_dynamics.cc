@@ -11,7 +11,7 @@
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
 #include "app/scene/input_place.h"
-#include "app/systems/planetary/space_input.h"
+#include "app/systems/shared/space_input.h"
 #include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/stage_members.h"
 #include "core/errors.h"

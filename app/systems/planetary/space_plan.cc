@@ -92,8 +92,10 @@ std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geome
       list.push_back(in_series(hold(bearings, axial).plan(name + " z")));
       const auto stiff =
           std::count_if(bearings.begin(), bearings.end(), [](const auto& b) { return radial(b) == rigid; });
+      const auto places = std::count_if(bearings.begin(), bearings.end(), [](const auto& b) { return radial(b) > 0; });
       auto tilts = hold(bearings, [&](const StageBearing& b) {
-        return b.tilt == rigid || (stiff > 1 && radial(b) == rigid) ? rigid : std::max(b.tilt, radial(b));
+        if (b.tilt == rigid || (stiff > 1 && radial(b) == rigid)) return rigid;
+        return std::max(b.tilt, b.matrix || b.row || places > 1 ? radial(b) : 0.0);
       });
       list.push_back(in_series(tilts.plan(name + " tilts")));
     }

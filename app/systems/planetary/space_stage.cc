@@ -12,7 +12,7 @@
 #include "app/model/excitation.h"
 #include "app/systems/planetary/carrier_pins.h"
 #include "app/systems/planetary/rim_coupling.h"
-#include "app/systems/planetary/space_input.h"
+#include "app/systems/shared/space_input.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "core/errors.h"
@@ -46,22 +46,6 @@ std::vector<StageBody> bodies_of(const Scene& scene, Body kind, const std::optio
 /// "rows", of planets one by one "rows planet2".
 std::string name_of(const std::string& name, const StageBody& body, bool of_all) {
   return of_all ? fmt::format("{} {}", name, dynamics::name_of_body(body)) : name;
-}
-
-dynamics::RollingRow rolling_row(const BearingInput& input) {
-  using Row = dynamics::RollingRow;
-  Row row;
-  row.element = input.balls ? Row::Element::ball : Row::Element::roller;
-  row.count = input.balls ? *input.balls : *input.rollers;
-  row.diameter = input.balls ? *input.ball_diameter : *input.roller_diameter;
-  row.length = input.roller_length.value_or(0);
-  row.pitch_diameter = input.pitch_diameter.value_or(0);
-  row.contact_angle = input.contact_angle;
-  row.clearance = input.clearance;
-  row.inner_groove = input.inner_groove;
-  row.outer_groove = input.outer_groove;
-  row.ring = input.ring.value_or(input.body == Body::planet ? Row::Ring::outer : Row::Ring::inner);
-  return row;
 }
 
 void add_bearings(const Scene& scene, dynamics::SpatialStage& stage) {
@@ -272,10 +256,10 @@ dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geo
   return stage;
 }
 
-dynamics::StageSpace::Face motion_face(const geometry::GearPair& pair, const MeshInput& input, const MeshResult& mesh,
-                                       double misalignment) {
+dynamics::SpreadFace motion_face(const geometry::GearPair& pair, const MeshInput& input, const MeshResult& mesh,
+                                 double misalignment) {
   const double c = std::cos(pair.pinion().base_helix_angle());
-  dynamics::StageSpace::Face face;
+  dynamics::SpreadFace face;
   face.width = pair.common_face().width;
   face.middle = place_of_face(pair);
   if (mesh.face) {

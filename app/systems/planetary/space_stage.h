@@ -32,8 +32,8 @@ struct StageFaces {
 [[nodiscard]] dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geometry, std::size_t ring);
 
 /// The face of a mesh in the dynamics, with what its flanks are apart along it.
-[[nodiscard]] dynamics::StageSpace::Face motion_face(const geometry::GearPair& pair, const MeshInput& input,
-                                                     const MeshResult& mesh, double misalignment);
+[[nodiscard]] dynamics::SpreadFace motion_face(const geometry::GearPair& pair, const MeshInput& input,
+                                               const MeshResult& mesh, double misalignment);
 
 /// A computed mesh as solid gears along their face, at the level of its table less `coarser`; null where there is none.
 [[nodiscard]] std::shared_ptr<const fem::SolidFace> solid_face(const MeshResult& mesh, const RunOptions& options,

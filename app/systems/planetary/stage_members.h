@@ -19,7 +19,7 @@ ANNULUS_MEMBERS(dynamics::LinearCoupling, name, bearings, stiffness, turns_ring,
 ANNULUS_MEMBERS(dynamics::SpaceLoad, body, load);
 ANNULUS_MEMBERS(dynamics::StandingLoad, body, cosine, sine);
 ANNULUS_MEMBERS(FaceShape, slope, curvature, gap_slope, error_relative, tilted);
-ANNULUS_MEMBERS(dynamics::StageSpace::Face, width, middle, gap, shape);
+ANNULUS_MEMBERS(dynamics::SpreadFace, width, middle, gap, shape);
 ANNULUS_MEMBERS(dynamics::StageSpace::TiltInertia, sun, ring, carrier, planet);
 ANNULUS_MEMBERS(dynamics::StageSpace, base_helix_angle, working_radius_sun, working_radius_ring, sun_face, ring_face,
                 tilt_inertia, bearings, couplings, loads, standing_loads);

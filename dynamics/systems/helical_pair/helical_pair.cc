@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -52,7 +53,56 @@ PairCoordinates add_gear(LumpedSystemBuilder& builder, const PairGear& gear, dou
   return c;
 }
 
+/// With the normal n = c e - s z of the flanks and a contact at rho_T + z, n . (phi x rho) = c phi . (rho_T x e) - s
+/// phi . (rho_T x z) + c z phi . (z x e); the first term is the plane's u.
+struct PairInSpace {
+  PairCoordinates pinion, wheel;
+  LinearForm approach, tilt;  ///< of the mesh, normal, beside that of the plane
+};
+
+PairInSpace add_in_space(LumpedSystemBuilder& builder, const HelicalPair& pair) {
+  const auto& space = *pair.space;
+  const auto body = [](StageBody::Kind kind, const PairGear& gear, double tilting, double spin) {
+    return SpaceBody{{kind}, gear.mass, gear.inertia, gear.radius, tilting, spin, 0};
+  };
+  const auto forms = add_space_bodies(
+      builder, space,
+      {body(StageBody::Kind::pinion, pair.pinion, space.tilt_inertia_pinion, pair.pinion_speed),
+       body(StageBody::Kind::wheel, pair.wheel, space.tilt_inertia_wheel, -pair.wheel_speed())},
+      {0, 0, pair.bearing_damping_ratio}, [](const auto&, const auto&, const auto&) { return seat_in_housing(); });
+  const auto &p = forms[0], &w = forms[1];
+  const double c = std::cos(pair.base_helix_angle), s = std::sin(pair.base_helix_angle);
+  const double cos_a = std::cos(space.working_angle), sin_a = std::sin(space.working_angle);
+  // About the common tangent of the pitch circles.
+  const auto about_tangent = [&](const BodyForms& f) { return (-sin_a) * f.tilt_x + cos_a * f.tilt_y; };
+  const LinearForm slope = (-c) * (p.tilt_x + (-1.0) * w.tilt_x);
+  PairInSpace result{{p.y, p.z, p.u}, {w.y, w.z, w.u}, space.face.middle * slope, (space.face.width / 2) * slope};
+  if (s != 0)
+    result.approach = result.approach + s * (space.working_radius_pinion * about_tangent(p) +
+                                             space.working_radius_wheel * about_tangent(w));
+  return result;
+}
+
 double yield_of(double stiffness) { return stiffness == rigid ? 0 : 1 / stiffness; }
+
+/// m/N along the normal, of the bearings of a pair in space, whose gears do not turn.
+double compliance_of_supports(const HelicalPair& pair) {
+  const auto system = assemble(pair);
+  std::vector<Eigen::Index> kept;
+  for (int i = 0; i < system.dofs(); ++i)
+    for (const std::string gear : {"pinion", "wheel"})
+      for (const auto* dof : {"_x", "_y", "_z", "_tiltx", "_tilty"})
+        if (system.names()[static_cast<std::size_t>(i)] == gear + dof) kept.push_back(i);
+  if (kept.empty()) return 0;
+  const Eigen::VectorXd b = system.mesh_vector(0)(kept);
+  const Eigen::MatrixXd stiffness = system.stiffness()(kept, kept);
+  return b.dot(stiffness.completeOrthogonalDecomposition().solve(b));
+}
+
+void check_torque(const HelicalPair& pair) {
+  if (!std::isfinite(pair.pinion_torque))
+    throw InputError(fmt::format("pinion torque {} N m must be finite", pair.pinion_torque));
+}
 
 }  // namespace
 
@@ -74,6 +124,7 @@ double HelicalPair::reduced_mass() const {
 }
 
 double HelicalPair::static_compliance() const {
+  if (space) return 1 / mean_stiffness(mesh) + compliance_of_supports(*this);
   const double c = std::cos(base_helix_angle), s = std::sin(base_helix_angle);
   return 1 / mean_stiffness(mesh) + c * c * (yield_of(pinion.bearing_transverse) + yield_of(wheel.bearing_transverse)) +
          s * s * (yield_of(pinion.bearing_axial) + yield_of(wheel.bearing_axial));
@@ -106,8 +157,17 @@ void HelicalPair::check() const {
   check_not_negative(bearing_damping_ratio, "bearing damping ratio");
   check_not_negative(pinion_speed, "pinion speed");
   check_rotors(rotors, shaft_ends());
-  if (!std::isfinite(pinion_torque))
-    throw InputError(fmt::format("pinion torque {} N m must be finite", pinion_torque));
+  check_torque(*this);
+  if (!space) return;
+  space->check_supports(0);
+  space->face.check("mesh");
+  check_positive(space->tilt_inertia_pinion, "tilting inertia of the pinion");
+  check_positive(space->tilt_inertia_wheel, "tilting inertia of the wheel");
+  check_positive(space->working_radius_pinion, "working radius of the pinion");
+  check_positive(space->working_radius_wheel, "working radius of the wheel");
+  if (pinion_torque < 0)
+    throw InputError(
+        fmt::format("pinion torque {} N m: a pair in space has driving flanks alone; mirror it", pinion_torque));
 }
 
 double base_helix_angle(double helix_angle, double normal_pressure_angle) {
@@ -129,14 +189,19 @@ double iso_6336_mesh_stiffness(const Iso6336Mesh& mesh) {
 LumpedSystem assemble(const HelicalPair& pair) {
   pair.check();
   LumpedSystemBuilder builder;
-  const auto pinion = add_gear(builder, pair.pinion, pair.bearing_damping_ratio, "pinion");
-  const auto wheel = add_gear(builder, pair.wheel, pair.bearing_damping_ratio, "wheel");
+  const auto bodies = pair.space ? add_in_space(builder, pair)
+                                 : PairInSpace{add_gear(builder, pair.pinion, pair.bearing_damping_ratio, "pinion"),
+                                               add_gear(builder, pair.wheel, pair.bearing_damping_ratio, "wheel"),
+                                               {},
+                                               {}};
+  const auto &pinion = bodies.pinion, &wheel = bodies.wheel;
   const double c = std::cos(pair.base_helix_angle), s = std::sin(pair.base_helix_angle);
 
   MeshElement mesh;
   mesh.name = "mesh";
   mesh.b = c * (pinion.y + pinion.u + (-1.0) * wheel.y + wheel.u);
   if (s != 0) mesh.b = mesh.b + (-s) * pinion.z + s * wheel.z;
+  mesh.b = mesh.b + bodies.approach;
   mesh.excitation = pair.mesh;
   mesh.frequency = pair.mesh_frequency();
   mesh.damping = critical_share(pair.mesh_damping_ratio, mean_stiffness(pair.mesh), pair.reduced_mass());
@@ -148,7 +213,10 @@ LumpedSystem assemble(const HelicalPair& pair) {
   add_error(pair.mesh_error, 2 * std::numbers::pi * pair.mesh_frequency());
   add_error(pair.pinion.error, pair.pinion_speed);
   add_error(pair.wheel.error, pair.wheel_speed());
+  std::optional<MeshElement> tilt;
+  if (pair.space) tilt = spread_over_face(builder, mesh, pair.space->face, bodies.tilt, 0, 1);
   builder.add_mesh(std::move(mesh));
+  if (tilt) builder.add_mesh(std::move(*tilt));
 
   // Equal on both, which is T_2/r_2 = T_1/r_1 balanced to rounding: a pair free to turn does not creep away.
   const double force = pair.pinion_torque / pair.pinion.radius;

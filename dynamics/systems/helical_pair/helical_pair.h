@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dynamics/modes/modes.h"
+#include "dynamics/spatial/space_bodies.h"
 #include "dynamics/system/drive_line.h"
 #include "dynamics/system/lumped_system.h"
 #include "dynamics/system/mesh_excitation.h"
@@ -15,6 +16,17 @@ namespace annulus::dynamics {
 struct ErrorWave {
   double amount = 0, phase = 0;
   [[nodiscard]] bool exists() const { return amount != 0; }
+};
+
+/// What a pair has beside its plane where its gears lie in bearings with places, and tilt. Axes: y along the transverse
+/// line of action, z along the axes. The working pitch points are, from the axes, at the angle of the line of action
+/// with the common tangent. `bearings` are those of pinion and wheel on the housing, instead of the stiffnesses of
+/// PairGear.
+struct PairSpace : SpaceSupports {
+  double working_angle = 0;                                    ///< rad, transverse
+  double working_radius_pinion = 0, working_radius_wheel = 0;  ///< m
+  double tilt_inertia_pinion = 0, tilt_inertia_wheel = 0;      ///< kg m^2, about axes across the gears' own
+  SpreadFace face;                                             ///< gaps normal to the flanks
 };
 
 /// One gear of a pair. Coordinates y (along the transverse line of action), z (axial) and u = radius x rotation, m.
@@ -60,7 +72,8 @@ struct HelicalPair {
   double pinion_speed = 0;  ///< rad/s, >= 0
   /// N m; the torque of the wheel is this times the ratio. Negative: the back flanks, or a mesh that pulls.
   double pinion_torque = 0;
-  std::vector<Rotor> rotors;  ///< on pinion and wheel
+  std::optional<PairSpace> space{};  ///< absent: the gears neither move off the line of action nor tilt
+  std::vector<Rotor> rotors;         ///< on pinion and wheel
 
   [[nodiscard]] std::vector<ShaftEnd> shaft_ends() const;
   [[nodiscard]] double wheel_speed() const;     ///< rad/s
@@ -94,7 +107,8 @@ struct Iso6336Mesh {
 [[nodiscard]] double iso_6336_mesh_stiffness(const Iso6336Mesh& mesh);
 
 /// The pair as elements: DOFs pinion_y, pinion_z, pinion_u, wheel_y, wheel_z, wheel_u (rigid ones left out) and one
-/// mesh "mesh"; then those of the rotors (with_rotors). Throws what `check` throws.
+/// mesh "mesh"; then those of the rotors (with_rotors). In space those of add_space_bodies(), and a mesh "mesh_tilt" of
+/// what the mesh approaches at the end of the face by more than in its middle. Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const HelicalPair& pair);
 
 /// Modes with the mean tangent stiffness of the mesh; the free rotation has 0 Hz.

@@ -246,37 +246,15 @@ StageForms add_bodies_in_plane(LumpedSystemBuilder& builder, const PlanetaryStag
 /// Spreads the meshes of a stage in space over their faces, which takes their backlash.
 void spread_meshes(std::vector<MeshElement>& meshes, LumpedSystemBuilder& builder, const PlanetaryStage& stage,
                    const StageForms& bodies) {
-  double square = 0;
-  for (const auto& place : face_places()) square += place.weight * place.z * place.z;
   std::vector<MeshElement> tilts;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const int planets = stage.planets(), n = static_cast<int>(m) % planets;
     const bool of_sun = static_cast<int>(m) < planets;
-    const auto& [width, middle, gap, shape] = of_sun ? stage.space->sun_face : stage.space->ring_face;
     auto& mesh = meshes[m];
     const auto [approach, tilt] = mesh_out_of_plane(stage, bodies, of_sun ? MeshWith::sun : MeshWith::ring, n);
     mesh.b = mesh.b + approach;
-    FaceElement face{static_cast<int>(m), static_cast<int>(meshes.size() + m), mesh.half_backlash, {}, {}};
-    double mean_square = square;
-    if (shape) {
-      const auto curve = [](const std::vector<double>& values) {
-        return PeriodicCurve(values, static_cast<int>(values.size()));
-      };
-      face.course = {curve(shape->slope), curve(shape->curvature), curve(shape->gap_slope)};
-      mean_square += 2.0 / 15 * face.course->curvature.mean();
-    }
-    for (std::size_t i = 0; i < face_places().size(); ++i) {
-      const auto& [z, weight] = face_places()[i];
-      face.places.push_back({z, weight, gap.empty() ? 0.0 : gap[i]});
-    }
-    mesh.half_backlash.reset();
-    auto& own = tilts.emplace_back();
-    own.name = mesh.name + "_tilt";
-    own.b = tilt;
-    own.excitation = ConstantStiffness{mean_square * mean_tangent_stiffness(mesh.excitation)};
-    own.damping = mean_square * mesh.damping;
-    own.damping_without_contact = mesh.damping_without_contact;
-    builder.add_face(std::move(face));
+    tilts.push_back(spread_over_face(builder, mesh, of_sun ? stage.space->sun_face : stage.space->ring_face, tilt,
+                                     static_cast<int>(m), static_cast<int>(meshes.size() + m)));
   }
   for (auto& tilt : tilts) meshes.push_back(std::move(tilt));
 }

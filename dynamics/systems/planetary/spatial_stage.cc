@@ -35,42 +35,14 @@ Vector3d centre_of(const SpatialStage& stage, const StageBody& body) {
   return stage.plane.carrier.radius * radial(stage.plane.planet_angles[static_cast<std::size_t>(body.planet)]);
 }
 
-std::optional<RollingRow> mirrored(std::optional<RollingRow> row) {
-  if (row) row->contact_angle = -row->contact_angle;
-  return row;
-}
-
-/// A bearing and its mirror image about the middle of the face do the same.
-bool mirrors(const StageBearing& a, const StageBearing& b) {
-  return a.body == b.body && a.on == b.on && a.frame == b.frame && a.place == -b.place && a.x == b.x && a.y == b.y &&
-         a.play == b.play && a.load_zone == b.load_zone && a.row == mirrored(b.row) && a.distance == b.distance &&
-         a.force == b.force && !a.matrix && !b.matrix;
-}
-/// Does a displacement in the plane call for no axial force and no tilting moment? Five coordinates per body; rounding
-/// counts as nothing.
-bool keeps_plane(const Eigen::MatrixXd& k) {
-  constexpr double rounding = 1e-12;
-  for (Eigen::Index in = 0; in < k.rows(); ++in)
-    for (Eigen::Index out = 0; out < k.cols(); ++out)
-      if (in % 5 < 2 && out % 5 >= 2 && std::abs(k(in, out)) > rounding * std::sqrt(k(in, in) * k(out, out)))
-        return false;
-  return true;
-}
-
-/// Do two measures agree but for motions out of the plane?
-bool same_in_plane(const Mechanism::Measure& a, const Mechanism::Measure& b) {
-  for (Eigen::Index i = 0; i < a.size(); ++i)
-    if ((i % 6 < 2 || i % 6 == 5) && a[i] != b[i]) return false;
-  return true;
-}
-
 class Assembly {
  public:
   Assembly(const SpatialStage& stage, double t)
       : stage_(stage),
         time_(t),
         space_(!stage.reasons_for_space().empty()),
-        result_{.mechanism = Mechanism(stage.plane.carrier.radius)} {}
+        result_{.mechanism = Mechanism(stage.plane.carrier.radius)},
+        bearings_(result_.mechanism, space_) {}
 
   StageMechanism build() && {
     for (const auto kind : central_bodies) mechanism().add_body({name_of_body({kind}), Vector3d::Zero(), space_});
@@ -90,6 +62,7 @@ class Assembly {
     for (int n = 0; n < stage_.planets(); ++n) result_.meshes.push_back(add_mesh(false, n));
     if (stage_.plane.ring_coupling) couple();
     add_loads();
+    result_.shared = bearings_.shared();
     return std::move(result_);
   }
 
@@ -106,86 +79,11 @@ class Assembly {
     return number(on_pin ? StageBody{Kind::pin, b.body.planet} : b.on);
   }
 
-  /// x, y, z, about x, about y of a bearing.
-  Mechanism::Measure measure(const StageBearing& b, const Eigen::Matrix3d& axes, int coordinate) {
-    const Vector3d point = centre_of(stage_, b.body) + b.place * Vector3d::UnitZ();
-    return coordinate < 3 ? mechanism().displacement(number(b.body), seat_of(b), point, axes.col(coordinate))
-                          : mechanism().rotation(number(b.body), seat_of(b), axes.col(coordinate - 3));
+  [[nodiscard]] BearingPlace place_of(const StageBearing& b) const {
+    return {number(b.body), seat_of(b), centre_of(stage_, b.body), frame_axes(stage_, b.frame, b.body, time_)};
   }
 
-  /// Element on some coordinates of a bearing.
-  void add_element(StageMechanism::Bearing& made, const StageBearing& b, const std::vector<int>& coordinates,
-                   std::shared_ptr<const ElasticLaw> law) {
-    const auto count = static_cast<Eigen::Index>(coordinates.size());
-    Eigen::MatrixXd measures(count, 6 * static_cast<Eigen::Index>(mechanism().bodies()));
-    for (Eigen::Index i = 0; i < count; ++i)
-      measures.row(i) = measure(b, made.axes, coordinates[static_cast<std::size_t>(i)]);
-    const int element = mechanism().add_element(b.name, measures, std::move(law), Eigen::VectorXd::Zero(count));
-    for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      made.element.at(static_cast<std::size_t>(coordinates[i])) = element;
-      made.coordinate.at(static_cast<std::size_t>(coordinates[i])) = static_cast<int>(i);
-    }
-  }
-
-  void hold(StageMechanism::Bearing& made, const StageBearing& b, int coordinate) {
-    constexpr const char* words[] = {"the x position", "the y position", "the axial position", "the tilt about x",
-                                     "the tilt about y"};
-    const auto row = measure(b, made.axes, coordinate);
-    int& held = made.held.at(static_cast<std::size_t>(coordinate));
-    // In the plane two bearings on either side of the face hold the same, and share it.
-    if (!space_)
-      for (std::size_t h = 0; h < holds_.size(); ++h)
-        if (same_in_plane(holds_[h], row)) {
-          held = static_cast<int>(h);
-          ++result_.shared[h];
-          return;
-        }
-    holds_.push_back(row);
-    result_.shared.push_back(1);
-    held = mechanism().hold(fmt::format("{} of the {} (bearing '{}')", words[coordinate], name_of_body(b.body), b.name),
-                            row);
-  }
-
-  void add_scalar(StageMechanism::Bearing& made, const StageBearing& b, int coordinate, double stiffness, double play) {
-    if (stiffness == 0) return;
-    if (stiffness == rigid) return hold(made, b, coordinate);
-    if (play > 0)
-      add_element(made, b, {coordinate}, std::make_shared<StopLaw>(1, stiffness, play));
-    else
-      add_element(made, b, {coordinate}, std::make_shared<LinearLaw>(Eigen::MatrixXd::Constant(1, 1, stiffness)));
-  }
-
-  void add_bearing(const StageBearing& b) {
-    StageMechanism::Bearing made{b.name, b.body, b.on, b.frame, b.place, frame_axes(stage_, b.frame, b.body, time_)};
-    if (b.matrix) {
-      const std::vector<int> coordinates = space_ ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 1};
-      const auto count = static_cast<Eigen::Index>(coordinates.size());
-      add_element(made, b, coordinates, std::make_shared<LinearLaw>(b.matrix->topLeftCorner(count, count)));
-    } else {
-      if (b.row) {
-        made.row = law_of(*b.row, space_);
-        add_element(made, b, made.row->coordinates(), made.row);
-      } else if (!b.distance.empty()) {
-        add_element(made, b, {0, 1}, std::make_shared<TableLaw>(b.distance, b.force));
-      } else if (b.play > 0 && b.x > 0) {
-        if (b.load_zone)
-          add_element(made, b, {0, 1}, std::make_shared<LoadZoneLaw>(RadialBearing(b.x, b.play, b.seat), b.x));
-        else
-          add_element(made, b, {0, 1}, std::make_shared<StopLaw>(2, b.x, b.play));
-      } else {
-        add_scalar(made, b, 0, b.x, 0);
-        add_scalar(made, b, 1, b.y, 0);
-      }
-      if (space_) {
-        if (made.element[2] < 0) add_scalar(made, b, 2, b.axial, b.axial_play);
-        if (!b.row) {
-          add_scalar(made, b, 3, b.tilt, 0);
-          add_scalar(made, b, 4, b.tilt, 0);
-        }
-      }
-    }
-    result_.bearings.push_back(std::move(made));
-  }
+  void add_bearing(const StageBearing& b) { result_.bearings.push_back(bearings_.add(b, place_of(b))); }
 
   /// The support of the plane, in the middle of the face.
   void add_support(const StageBody& body) {
@@ -216,17 +114,17 @@ class Assembly {
     for (int i = 0; i < each * planets; ++i)
       for (int j = 0; j < each * planets; ++j)
         stiffness(i, j) = (*stage_.pins)(5 * (i / each) + i % each, 5 * (j / each) + j % each);
-    std::vector<StageMechanism::Bearing> made;
+    std::vector<MadeBearing> made;
     for (int n = 0; n < planets; ++n) {
       StageBearing b;
       b.body = {Kind::pin, n};
       b.on = {Kind::carrier};
       b.frame = StageFrame::planet;
       b.name = name_of_body(b.body);
-      auto& pin = made.emplace_back(
-          StageMechanism::Bearing{b.name, b.body, b.on, b.frame, 0, frame_axes(stage_, b.frame, b.body, time_)});
+      const auto place = place_of(b);
+      auto& pin = made.emplace_back(MadeBearing{b.name, b.body, b.on, b.frame, 0, place.axes});
       for (int i = 0; i < each; ++i) {
-        measures.row(each * n + i) = measure(b, pin.axes, i);
+        measures.row(each * n + i) = bearings_.measure(b, place, i);
         pin.coordinate.at(static_cast<std::size_t>(i)) = each * n + i;
       }
       mechanism().hold(fmt::format("the rotation of {}", b.name),
@@ -247,8 +145,7 @@ class Assembly {
     for (const std::size_t i : stage_.housing->bearings) {
       const auto& b = stage_.bearings.at(i);
       if (b.on.kind != Kind::housing)
-        throw InputError(fmt::format("bearing '{}' stands on the {}, not on the housing", b.name,
-                                     name_of_body(b.on)));
+        throw InputError(fmt::format("bearing '{}' stands on the {}, not on the housing", b.name, name_of_body(b.on)));
       auto name = "housing_" + b.name;
       std::replace(name.begin(), name.end(), ' ', '_');
       mechanism().add_body({std::move(name), b.place * Vector3d::UnitZ()});
@@ -277,8 +174,8 @@ class Assembly {
       else
         mechanism().hold(fmt::format("the rotation of the {}", mechanism().body(place).name), turn);
     }
-    result_.housing = mechanism().add_element(
-        "housing", measures, std::make_shared<LinearLaw>(housing.stiffness), Eigen::VectorXd::Zero(size));
+    result_.housing = mechanism().add_element("housing", measures, std::make_shared<LinearLaw>(housing.stiffness),
+                                              Eigen::VectorXd::Zero(size));
   }
 
   /// The angle of the carrier is that of the position; what the ring's torsional support gives way is elastic.
@@ -288,17 +185,17 @@ class Assembly {
     result_.carrier_hold =
         mechanism().hold("the rotation of the carrier", mechanism().rotation(carrier, Mechanism::ground, axis));
     const bool in_housing = stage_.housing && stage_.housing->ring_bearing;
-    const auto turn = mechanism().rotation(
-        ring, in_housing ? housing_place(*stage_.housing->ring_bearing) : Mechanism::ground, axis);
+    const auto turn =
+        mechanism().rotation(ring, in_housing ? housing_place(*stage_.housing->ring_bearing) : Mechanism::ground, axis);
     const double torsional = stage_.plane.ring.torsional_support;
     if (torsional == rigid || torsional == 0) {
       result_.ring_hold = mechanism().hold("the rotation of the ring", turn);
       return;
     }
     const double stiffness = torsional * stage_.plane.ring.radius * stage_.plane.ring.radius;  // u = r_b phi
-    result_.ring_support = mechanism().add_element("ring torsional support", turn,
-                            std::make_shared<LinearLaw>(Eigen::MatrixXd::Constant(1, 1, stiffness)),
-                            Eigen::VectorXd::Zero(1));
+    result_.ring_support = mechanism().add_element(
+        "ring torsional support", turn, std::make_shared<LinearLaw>(Eigen::MatrixXd::Constant(1, 1, stiffness)),
+        Eigen::VectorXd::Zero(1));
   }
 
   StageMechanism::Mesh add_mesh(bool of_sun, int n) {
@@ -421,15 +318,11 @@ class Assembly {
   bool space_;
   StageMechanism result_;
   int first_housing_place_ = 0;
-  std::vector<Flank> coupled_;             // driving flanks of ring meshes
-  std::vector<Mechanism::Measure> holds_;  // of bearings: the first ones of the mechanism
+  std::vector<Flank> coupled_;  // driving flanks of ring meshes
+  BearingAssembly bearings_;
 };
 
 }  // namespace
-
-bool StageLoad::stands_in_housing() const {
-  return frame == StageFrame::housing && (force.head<2>().any() || moment.head<2>().any() || point.head<2>().any());
-}
 
 bool SpatialStage::has_bearings(const StageBody& body) const {
   return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
@@ -449,29 +342,10 @@ std::vector<std::string> SpatialStage::reasons_for_space() const {
     if (face->middle != 0)
       reasons.push_back(fmt::format("the face of the {} meshes lies beside the middle of the stage", name));
   }
-  for (const auto& load : loads) {
-    const bool transverse = load.force.head<2>().any();
-    if (load.force.z() != 0 || load.moment.head<2>().any() || (transverse && load.point.z() != 0))
-      reasons.push_back(
-          fmt::format("load '{}' acts along the axis or tilts the {}", load.name, name_of_body(load.body)));
-  }
-  if (gravity.z() != 0 && !weights.empty()) reasons.emplace_back("gravity acts along the axis");
-  if (gravity.head<2>().any())
-    for (const auto& weight : weights)
-      if (weight.place != 0)
-        reasons.push_back(
-            fmt::format("the weight of the {} acts beside the middle of the face", name_of_body(weight.body)));
+  add_reasons(reasons, loads, weights, gravity);
   if (housing) reasons.emplace_back("the housing gives way");
   if (pins && !keeps_plane(*pins)) reasons.emplace_back("pins or carrier tilt the planets as they give way");
-  for (const auto& b : bearings) {
-    const bool paired =
-        b.matrix ? b.place == 0 && keeps_plane(*b.matrix)
-                 : std::any_of(bearings.begin(), bearings.end(), [&](const auto& o) { return mirrors(b, o); });
-    const bool radial = b.holds_radially();
-    if (radial && !paired)
-      reasons.push_back(fmt::format("bearing '{}' of the {} has no counterpart on the other side of the face", b.name,
-                                    name_of_body(b.body)));
-  }
+  add_reasons(reasons, bearings);
   return reasons;
 }
 
@@ -500,7 +374,7 @@ int body_number(const SpatialStage& stage, const StageBody& body) {
       return 2;
     case Kind::planet:
       return 3 + body.planet;
-    case Kind::pin:
+    default:
       break;
   }
   return 3 + stage.planets() + body.planet;

@@ -9,32 +9,11 @@
 
 #include "core/elastic_law.h"
 #include "dynamics/spatial/coupled_faces.h"
-#include "dynamics/spatial/elastic_laws.h"
 #include "dynamics/spatial/mechanism.h"
-#include "dynamics/spatial/rolling_rows.h"
+#include "dynamics/spatial/stage_bearing.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::dynamics {
-
-/// A bearing between two bodies in a place on the axis of the first: force and moment from the displacement (x, y, z)
-/// and the tilt (about x, y) of `body` against `on` there. It has no torque about the axis.
-struct StageBearing {
-  std::string name;
-  StageBody body, on;
-  StageFrame frame = StageFrame::housing;
-  double place = 0;                         ///< m, z
-  double x = 0, y = 0;                      ///< N/m; `rigid`: does not move
-  double axial = 0;                         ///< N/m
-  double tilt = 0;                          ///< N m/rad, about x and y
-  double play = 0;                          ///< m, half the radial clearance; x and y are then equal and finite
-  bool load_zone = true;                    ///< with play: RadialBearing; else a stop (StopLaw)
-  double axial_play = 0;                    ///< m, half the axial clearance
-  std::vector<double> distance{}, force{};  ///< m, N: radial, over each other, instead of x, y and play (TableLaw)
-  std::optional<RollingRow> row{};          ///< instead of x, y, tilt and play, with a contact angle of axial too
-  double seat = rigid;                      ///< N/m, in series with a bearing that has play and a load zone
-  [[nodiscard]] bool holds_radially() const { return matrix || row || !distance.empty() || x > 0 || y > 0; }
-  std::optional<Eigen::Matrix<double, 5, 5>> matrix{};  ///< instead of the stiffnesses; SI
-};
 
 /// What the housing gives way behind bearings that stand on it, in its frame.
 struct HousingStructure {
@@ -44,23 +23,6 @@ struct HousingStructure {
   Eigen::MatrixXd stiffness;
   /// The torque of the ring enters the housing there: position in `bearings`. Absent: the housing does not turn.
   std::optional<std::size_t> ring_bearing{};
-};
-
-/// A force and a moment on a body at a point (m, from the middle of the stage's axis, or a planet's).
-struct StageLoad {
-  std::string name;
-  StageBody body;
-  StageFrame frame = StageFrame::housing;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero(), force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
-  /// Whether it keeps its direction in the housing, past which the carrier turns.
-  [[nodiscard]] bool stands_in_housing() const;
-};
-
-/// Weight of a body in its centre of mass, which is on its axis.
-struct StageWeight {
-  StageBody body;
-  double mass = 0;   ///< kg
-  double place = 0;  ///< m, z
 };
 
 /// A kind of mesh along its face.
@@ -127,24 +89,13 @@ struct StageMechanism {
     std::shared_ptr<const FaceLaw> law, back_law;
   };
   std::vector<Mesh> meshes{};  ///< sun meshes of planets 0 ... N-1, then ring meshes
-  /// A bearing, or the support that a body without one has.
-  struct Bearing {
-    std::string name;
-    StageBody body, on;
-    StageFrame frame = StageFrame::housing;
-    double place = 0;                                    ///< m, z
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of its frame, as columns
-    /// x, y, z, about x, about y: the element and coordinate that resists it, or the hold; -1: nothing.
-    std::array<int, 5> element{-1, -1, -1, -1, -1}, coordinate{}, held{-1, -1, -1, -1, -1};
-    std::shared_ptr<const RollingRowLaw> row{};  ///< of its first element; null: it has no rolling elements
-  };
-  std::vector<int> shared{};  ///< per hold: bearings that hold the same, and share what it bears
-  std::vector<Bearing> bearings{};
+  std::vector<int> shared{};   ///< per hold: bearings that hold the same, and share what it bears
+  std::vector<MadeBearing> bearings{};
   std::shared_ptr<const CoupledFaces> coupling{};  ///< of the driving flanks of the ring meshes; null without
   int housing = -1;       ///< element of HousingStructure, in its coordinates; -1: the housing is rigid
   int ring_support = -1;  ///< element of its torsional support; -1: none that gives way
   int carrier_hold = -1;  ///< of its rotation, which bears its torque
-  int ring_hold = -1;                              ///< of its rotation; -1: it has an elastic torsional support
+  int ring_hold = -1;     ///< of its rotation; -1: it has an elastic torsional support
 };
 /// At time t (s). Throws InputError where bearings, loads and bodies do not fit.
 [[nodiscard]] StageMechanism assemble(const SpatialStage& stage, double t);

@@ -2,16 +2,10 @@
 
 #include <vector>
 
-#include "dynamics/system/lumped_system.h"
+#include "dynamics/spatial/space_bodies.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::dynamics {
-
-/// Coordinates of a body as forms of DOFs; empty ones stay 0. Displacements and u in m, tilts in rad; those of a planet
-/// are radial and tangential.
-struct BodyForms {
-  LinearForm x, y, u, z, tilt_x, tilt_y;
-};
 
 /// The bodies of a stage as DOFs with their masses, supports and loads.
 struct StageForms {
@@ -19,10 +13,7 @@ struct StageForms {
   std::vector<BodyForms> planets;
 };
 
-/// Bodies that move along the axis and tilt. DOFs in the order sun, ring, carrier, planet1 ...: x, y, z, tiltx, tilty
-/// (radius x tilt, m) as far as no bearing holds them rigidly, and u. A spring carries the name of its body and its
-/// bearing. Throws InputError for bearings that stand rigidly on a body other than the housing, planets' on the
-/// carrier.
+/// Bodies that move along the axis and tilt (add_space_bodies()), in the order sun, ring, carrier, planet1 ...
 [[nodiscard]] StageForms add_bodies_in_space(LumpedSystemBuilder& builder, const PlanetaryStage& stage);
 
 /// The 5 coordinates of a LinearBearing between a body and what it stands on, in the body's middle. `bodies`: of the

@@ -2,81 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
-#include <cmath>
 #include <utility>
 
-#include "core/errors.h"
 #include "dynamics/system/input_checks.h"
 
 namespace annulus::dynamics {
-
-std::string name_of_body(const StageBody& body) {
-  constexpr const char* names[] = {"housing", "sun", "ring", "carrier"};
-  if (body.kind == StageBody::Kind::planet) return fmt::format("planet{}", body.planet + 1);
-  if (body.kind == StageBody::Kind::pin) return fmt::format("pin{}", body.planet + 1);
-  return names[static_cast<std::size_t>(body.kind)];
-}
-
-bool stands_on_carrier(const LinearBearing& bearing) {
-  return bearing.body.kind == StageBody::Kind::planet && bearing.on.kind == StageBody::Kind::carrier;
-}
-
-Eigen::MatrixXd StageSpace::whole(const LinearCoupling& coupling) const {
-  Eigen::MatrixXd all = coupling.stiffness;
-  Eigen::Index first = 0;
-  for (const std::size_t i : coupling.bearings) {
-    all.block<5, 5>(first, first) += bearings[i].stiffness;
-    first += 5;
-  }
-  return all;
-}
-
-const LinearCoupling* StageSpace::coupling_of(std::size_t bearing) const {
-  for (const auto& coupling : couplings)
-    if (std::find(coupling.bearings.begin(), coupling.bearings.end(), bearing) != coupling.bearings.end())
-      return &coupling;
-  return nullptr;
-}
-
-const LinearCoupling* StageSpace::coupling_of_ring() const {
-  for (const auto& coupling : couplings)
-    if (coupling.turns_ring) return &coupling;
-  return nullptr;
-}
-
-std::string LinearBearing::element() const {
-  auto result = name_of_body(body) + "_" + name;
-  std::replace(result.begin(), result.end(), ' ', '_');
-  return result;
-}
-
-namespace {
-
-void check_coupling(const StageSpace& space, const LinearCoupling& coupling, int planets) {
-  const Eigen::Index size = 5 * std::ssize(coupling.bearings) + (coupling.turns_ring ? 1 : 0);
-  const auto& k = coupling.stiffness;
-  if (k.rows() != size || k.cols() != size || !k.allFinite())
-    throw InputError(fmt::format("the stiffness of {} between {} bearings has {} x {} finite entries, not {} x {}",
-                                 coupling.name, coupling.bearings.size(), k.rows(), k.cols(), size, size));
-  int of_planets = 0;
-  for (const std::size_t i : coupling.bearings) {
-    const auto& b = space.bearings.at(i);
-    if (std::find(b.rigid.begin(), b.rigid.end(), true) != b.rigid.end())
-      throw InputError(fmt::format("bearing '{}' is rigid on a {} that gives way", b.name, name_of_body(b.on)));
-    if (!stands_on_carrier(b)) continue;
-    if (b.place != 0 || b.body.planet != of_planets++)
-      throw InputError(fmt::format(
-          "bearing '{}' of planet {} on a carrier that gives way, at z = {} m, is not the one in its middle", b.name,
-          b.body.planet + 1, b.place));
-  }
-  if (of_planets > 0 && (of_planets != planets || of_planets != std::ssize(coupling.bearings)))
-    throw InputError(fmt::format("a carrier that gives way has {} bearings, {} of them of its {} planets",
-                                 coupling.bearings.size(), of_planets, planets));
-}
-
-}  // namespace
 
 void StageSpace::check(int planets) const {
   for (const auto& [inertia, name] : {std::pair{tilt_inertia.sun, "sun"},
@@ -84,79 +14,9 @@ void StageSpace::check(int planets) const {
                                       {tilt_inertia.carrier, "carrier"},
                                       {tilt_inertia.planet, "planet"}})
     check_positive(inertia, fmt::format("tilting inertia of the {}", name));
-  for (const auto& [face, name] : {std::pair{&sun_face, "sun"}, {&ring_face, "ring"}}) {
-    check_positive(face->width, fmt::format("face width of the {} meshes", name));
-    if (!std::isfinite(face->middle))
-      throw InputError(fmt::format("the middle of the face of the {} meshes is {} m", name, face->middle));
-    if (const auto* shape = face->shape.get();
-        shape && (shape->slope.empty() || shape->slope.size() != shape->curvature.size() ||
-                  shape->slope.size() != shape->gap_slope.size()))
-      throw InputError(fmt::format("the face of the {} meshes has {} slopes, {} curvatures and {} gaps over its phases",
-                                   name, shape->slope.size(), shape->curvature.size(), shape->gap_slope.size()));
-    if (!face->gap.empty() && face->gap.size() != face_places().size())
-      throw InputError(fmt::format("the face of the {} meshes has {} gaps for {} places", name, face->gap.size(),
-                                   face_places().size()));
-  }
-  const auto check_body = [&](const StageBody& body, const std::string& what) {
-    if (body.kind == StageBody::Kind::planet && (body.planet < 0 || body.planet >= planets))
-      throw InputError(fmt::format("{} names planet {} of {}", what, body.planet + 1, planets));
-    if (body.kind == StageBody::Kind::pin) throw InputError(what + " names a pin, which is no body of the dynamics");
-  };
-  for (const auto& b : bearings) {
-    check_body(b.body, "bearing '" + b.name + "'");
-    check_body(b.on, "bearing '" + b.name + "'");
-    if (!b.stiffness.allFinite() || !b.preload.allFinite() || !b.standing.allFinite() || !std::isfinite(b.place))
-      throw InputError(fmt::format("bearing '{}' has a stiffness, force or place that is not finite", b.name));
-    constexpr double rounding = 1e-9;
-    if (const double skew = (b.stiffness - b.stiffness.transpose()).cwiseAbs().maxCoeff();
-        skew > rounding * b.stiffness.cwiseAbs().maxCoeff())
-      throw InputError(fmt::format("the stiffness of bearing '{}' differs from its transpose by {:g}", b.name, skew));
-    if ((b.on.kind != StageBody::Kind::housing && b.standing.any()) || b.standing[2] != 0)
-      throw InputError(fmt::format(
-          "bearing '{}' has a force that stands in the housing, but is not in it, or acts along the axis", b.name));
-    if (b.on.kind == StageBody::Kind::planet || b.body.kind == StageBody::Kind::housing)
-      throw InputError(fmt::format("bearing '{}' supports the housing or stands on a planet", b.name));
-  }
-  for (const auto& coupling : couplings) check_coupling(*this, coupling, planets);
-  const auto check_load = [&](const StageBody& body, bool finite) {
-    check_body(body, "a load");
-    if (body.kind == StageBody::Kind::housing || !finite)
-      throw InputError(fmt::format("a load on the {} is not finite or acts on the housing", name_of_body(body)));
-  };
-  for (const auto& load : loads) check_load(load.body, load.load.allFinite());
-  for (const auto& load : standing_loads) check_load(load.body, load.cosine.allFinite() && load.sine.allFinite());
-}
-
-bool StageSpace::depends_on_carrier_angle() const {
-  return !standing_loads.empty() ||
-         std::any_of(bearings.begin(), bearings.end(), [](const auto& b) { return b.standing.any(); });
-}
-
-LinearBearing::Vector quarter_turn_later(const LinearBearing::Vector& s) { return {s[1], -s[0], 0, s[4], -s[3]}; }
-
-const std::vector<FacePlace>& face_places() {
-  using Rule = boost::math::quadrature::gauss<double, 20>;
-  static const std::vector<FacePlace> places = [] {
-    std::vector<FacePlace> list;
-    for (std::size_t i = Rule::abscissa().size(); i-- > 0;)
-      list.push_back({-Rule::abscissa()[i], Rule::weights()[i] / 2});
-    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i)
-      list.push_back({Rule::abscissa()[i], Rule::weights()[i] / 2});
-    return list;
-  }();
-  return places;
-}
-
-LinearBearing::Stiffness to_place(double place) {
-  LinearBearing::Stiffness move = LinearBearing::Stiffness::Identity();
-  move(0, 4) = place;
-  move(1, 3) = -place;
-  return move;
-}
-
-LinearBearing::Stiffness moved_along_axis(const LinearBearing::Stiffness& stiffness, double place) {
-  const auto move = to_place(place);
-  return move.transpose() * stiffness * move;
+  sun_face.check("sun meshes");
+  ring_face.check("ring meshes");
+  check_supports(planets);
 }
 
 }  // namespace annulus::dynamics

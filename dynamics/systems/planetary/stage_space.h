@@ -1,113 +1,24 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <memory>
-#include <string>
-#include <vector>
 
-#include "core/face_shape.h"
-#include "dynamics/systems/planetary/stage_bodies.h"
+#include "dynamics/spatial/linear_supports.h"
 
 namespace annulus::dynamics {
 
-/// A bearing for small motions about its working point, in a place on the axis of `body`. Its coordinates d are the
-/// displacement (x, y, z; m) and the tilt (about x, y; rad) of `body` against `on` there, in the axes of the body:
-/// radial, tangential and axial for planets, those of the carrier for others. It acts on the body with -(K d + f).
-struct LinearBearing {
-  using Stiffness = Eigen::Matrix<double, 5, 5>;
-  using Vector = Eigen::Matrix<double, 5, 1>;
-  std::string name;
-  StageBody body, on;                       ///< `on`: the housing or a central body
-  double place = 0;                         ///< m, z
-  Stiffness stiffness = Stiffness::Zero();  ///< K, symmetric: N/m, N, N m/rad; 0 in rigid coordinates
-  std::array<bool, 5> rigid{};              ///< these coordinates stay 0; of central bodies only against the housing
-  Vector preload = Vector::Zero();          ///< f: N, N m
-  /// A part of f that stands still in the housing, in the axes of the carrier at time 0; of bearings there alone.
-  Vector standing = Vector::Zero();
-  /// Its name among springs, in columns and in groups of modal energy: "planet1_upwind_row".
-  [[nodiscard]] std::string element() const;
-};
-
-/// Whether it holds a planet on the carrier.
-[[nodiscard]] bool stands_on_carrier(const LinearBearing& bearing);
-
-/// Bearings that act on each other through what they stand on: planets through a carrier, others through the housing.
-struct LinearCoupling {
-  std::string name;                   ///< among springs
-  std::vector<std::size_t> bearings;  ///< numbers in StageSpace::bearings; none is rigid
-  /// Between the coordinates of different bearings, 5 each: N/m, N, N m/rad. The blocks of own coordinates are zero:
-  /// bearings contain them.
-  Eigen::MatrixXd stiffness;
-  /// One more coordinate, with its own entry: the rotation of the ring as a displacement on its base circle (m). It is
-  /// then the torsional support of the ring, on which it acts with -(K d + ring_preload).
-  bool turns_ring = false;
-  double ring_preload = 0;  ///< N
-};
-
-/// Force (N) in the middle of the face and moment (N m) on a body, in its axes.
-struct SpaceLoad {
-  StageBody body;
-  Eigen::Matrix<double, 6, 1> load = Eigen::Matrix<double, 6, 1>::Zero();
-};
-
-/// Force (N) and moment (N m) on a body that stand still in the housing, as the carrier turns past it: in the axes of
-/// the body, cosine x cos(angle) + sine x sin(angle) of the carrier's angle.
-struct StandingLoad {
-  StageBody body;
-  Eigen::Matrix<double, 6, 1> cosine = Eigen::Matrix<double, 6, 1>::Zero(), sine = cosine;
-};
-
 /// What a stage has beside that of the plane (PlanetaryStage) where its bodies move along the axis and tilt. All of its
 /// supports but the torsional ones are `bearings`.
-struct StageSpace {
+struct StageSpace : SpaceSupports {
   double base_helix_angle = 0;  ///< rad, signed: > 0 for right-handed planets
   /// m, of the working pitch points from the planets' axes.
   double planet_working_radius_sun = 0, planet_working_radius_ring = 0;
-  struct Face {
-    double width = 0, middle = 0;  ///< m, of the common face; `middle`: its z
-    /// m, of the driving flanks before deformation, in the transverse section, at face_places(); empty: none.
-    std::vector<double> gap{};
-    /// Of solid gears; its gaps are those of the transverse section. Null: the law of the mesh is spread evenly.
-    std::shared_ptr<const FaceShape> shape{};
-  };
-  Face sun_face, ring_face;
+  SpreadFace sun_face, ring_face;  ///< gaps of the transverse section
   struct TiltInertia {
     double sun = 0, ring = 0, carrier = 0, planet = 0;  ///< kg m^2, about axes across the body's own
   };
   TiltInertia tilt_inertia;
-  std::vector<LinearBearing> bearings;
-  /// That of planets, if any, is between one bearing of each, in its middle.
-  std::vector<LinearCoupling> couplings{};
-  std::vector<SpaceLoad> loads;
-  std::vector<StandingLoad> standing_loads{};
-
-  /// Whether forces change as the carrier turns past the housing.
-  [[nodiscard]] bool depends_on_carrier_angle() const;
   /// Throws InputError with name and value of the quantity that cannot be used.
   void check(int planets) const;
-  /// The stiffness of bearings and between them, in the coordinates of a coupling.
-  [[nodiscard]] Eigen::MatrixXd whole(const LinearCoupling& coupling) const;
-  /// The one that has the bearing; null: none.
-  [[nodiscard]] const LinearCoupling* coupling_of(std::size_t bearing) const;
-  /// That which turns the ring; null: none.
-  [[nodiscard]] const LinearCoupling* coupling_of_ring() const;
 };
-
-/// A standing force in the axes of the carrier a quarter turn later; nothing along the axis.
-[[nodiscard]] LinearBearing::Vector quarter_turn_later(const LinearBearing::Vector& standing);
-
-/// Places at which the load along a face is found, from -1 to 1 (end to end), those of Gauss, and their weights, which
-/// add up to 1. A straight approach of flanks that carry all over gives exact forces and moments. Where the contact
-/// ends between two places both differ from those of whole integrals, by less than 5e-4 in the test.
-struct FacePlace {
-  double z = 0, weight = 0;
-};
-[[nodiscard]] const std::vector<FacePlace>& face_places();
-
-/// A stiffness at z = `place` (m) as it is at z = 0.
-[[nodiscard]] LinearBearing::Stiffness moved_along_axis(const LinearBearing::Stiffness& stiffness, double place);
-/// d at z = `place` from d at z = 0.
-[[nodiscard]] LinearBearing::Stiffness to_place(double place);
 
 }  // namespace annulus::dynamics

@@ -38,8 +38,7 @@ StaticMesh mesh_in(const StageMechanism::Mesh& mesh, const Mechanism::Equilibriu
   return result;
 }
 
-StaticBearing bearing_in(const StageMechanism& made, const StageMechanism::Bearing& bearing,
-                         const Mechanism::Equilibrium& at) {
+StaticBearing bearing_in(const StageMechanism& made, const MadeBearing& bearing, const Mechanism::Equilibrium& at) {
   StaticBearing result;
   for (std::size_t i = 0; i < bearing.element.size(); ++i) {
     double value = 0;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "dynamics/spatial/linearised.h"
+
 namespace annulus::dynamics {
 
 namespace {
@@ -28,40 +30,6 @@ Eigen::MatrixXd mean_over_turn(const Eigen::MatrixXd& stiffness) {
     sum += all.transpose() * stiffness * all / angles;
   }
   return sum;
-}
-
-struct Linearised {
-  LinearBearing bearing;
-  Vector deflection = Vector::Zero();  ///< of the coordinates that something elastic resists
-};
-
-/// Tangents, forces and rigid coordinates of a bearing in a state.
-Linearised linear(const StageMechanism::Bearing& bearing, const Mechanism::Equilibrium& at) {
-  Linearised found;
-  LinearBearing& result = found.bearing;
-  result.name = bearing.name;
-  // A bearing of every planet has the planet in its name as well.
-  if (const auto own = " " + name_of_body(bearing.body); result.name.ends_with(own))
-    result.name.resize(result.name.size() - own.size());
-  result.body = bearing.body;
-  result.on = bearing.on;
-  result.place = bearing.place;
-  for (std::size_t i = 0; i < 5; ++i) {
-    result.rigid.at(i) = bearing.held.at(i) >= 0;
-    const int element = bearing.element.at(i);
-    if (element < 0) continue;
-    const auto row = static_cast<Eigen::Index>(i);
-    const auto& state = at.state[static_cast<std::size_t>(element)];
-    found.deflection[row] = at.deflection[static_cast<std::size_t>(element)][bearing.coordinate.at(i)];
-    result.preload[row] = state.force[bearing.coordinate.at(i)];
-    for (std::size_t j = 0; j < 5; ++j) {
-      if (bearing.element.at(j) != element) continue;
-      const double tangent = state.tangent(bearing.coordinate.at(i), bearing.coordinate.at(j));
-      result.stiffness(row, static_cast<Eigen::Index>(j)) = tangent;
-      result.preload[row] -= tangent * at.deflection[static_cast<std::size_t>(element)][bearing.coordinate.at(j)];
-    }
-  }
-  return found;
 }
 
 /// The forces of a bearing in the housing stand there, but for that along the axis.
@@ -123,8 +91,7 @@ std::vector<Stiffness> own_blocks(Eigen::MatrixXd& stiffness, std::size_t bearin
 /// Is what remains of a stiffness between bearings no more than rounding of `whole`?
 bool couples(const Eigen::MatrixXd& between, const Eigen::MatrixXd& whole) {
   constexpr double rounding = 1e-9;
-  const Eigen::VectorXd inverse =
-      whole.diagonal().cwiseSqrt().unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
+  const Eigen::VectorXd inverse = whole.diagonal().cwiseSqrt().unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
   return (inverse.asDiagonal() * between * inverse.asDiagonal()).cwiseAbs().maxCoeff() > rounding;
 }
 
@@ -285,26 +252,6 @@ std::vector<StageLoad> all_loads(const SpatialStage& stage) {
   return loads;
 }
 
-/// Takes what holds along the axis and against tilting off a bearing.
-void flatten(LinearBearing& bearing) {
-  for (const Eigen::Index k : {2, 3, 4}) {
-    bearing.stiffness.row(k).setZero();
-    bearing.stiffness.col(k).setZero();
-    bearing.preload[k] = bearing.standing[k] = 0;
-    bearing.rigid.at(static_cast<std::size_t>(k)) = false;
-  }
-}
-
-/// Keeps a body in the plane.
-LinearBearing plane_guide(const StageBody& body) {
-  LinearBearing guide;
-  guide.name = "plane";
-  guide.body = body;
-  if (body.kind == Kind::planet) guide.on = {Kind::carrier};
-  guide.rigid = {false, false, true, true, true};
-  return guide;
-}
-
 }  // namespace
 
 StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::TiltInertia& inertia) {
@@ -332,12 +279,12 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
     if (bearing.body.kind == Kind::pin) continue;
     const bool given = i < turning.bearings.size();
     if (const auto place = std::find(housed.begin(), housed.end(), i); place != housed.end()) {
-      in_housing[static_cast<std::size_t>(place - housed.begin())] = linear(made_under_all.bearings[i], under_all);
+      in_housing[static_cast<std::size_t>(place - housed.begin())] = linearised(made_under_all.bearings[i], under_all);
       continue;
     }
     const bool on_housing = bearing.on.kind == Kind::housing && turns;
-    auto found = on_housing && stands ? under_standing_loads(linear(made_under_all.bearings[i], under_all))
-                                      : linear(bearing, at).bearing;
+    auto found = on_housing && stands ? under_standing_loads(linearised(made_under_all.bearings[i], under_all))
+                                      : linearised(bearing, at).bearing;
     if (!given) found.name = bearing.body.kind == Kind::planet ? "bearing" : "support";
     const bool directed = given && bearing.frame == StageFrame::housing &&
                           (turning.bearings[i].matrix || turning.bearings[i].x != turning.bearings[i].y);

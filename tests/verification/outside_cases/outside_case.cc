@@ -1,7 +1,7 @@
 #include "tests/verification/outside_cases/outside_case.h"
 
-#include <boost/test/unit_test.hpp>
 #include <algorithm>
+#include <boost/test/unit_test.hpp>
 #include <cctype>
 #include <cmath>
 #include <fstream>

@@ -1,17 +1,14 @@
-#include "app/systems/planetary/space_tables.h"
+#include "app/systems/shared/space_tables.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_declare.h"
-#include "app/scene/scene_files.h"
-#include "app/systems/planetary/carrier_pins.h"
-#include "app/systems/planetary/space_input.h"
+#include "app/systems/shared/space_input.h"
 #include "core/errors.h"
 #include "core/units.h"
 #include "dynamics/spatial/elastic_laws.h"
@@ -33,13 +30,22 @@ Declarations<Section> declare_list(const char* path, const char* meaning, std::v
       [list](Scene& s, std::size_t n) { (s.own<SpaceInput>().*list).resize(n); });
 }
 
-std::vector<Choice<Body>> bodies() {
+std::vector<Choice<Body>> bodies(SpaceOf of) {
+  if (of == SpaceOf::pair) return {{"pinion", Body::pinion}, {"wheel", Body::wheel}};
   return {{"sun", Body::sun}, {"ring", Body::ring}, {"carrier", Body::carrier}, {"planet", Body::planet}};
 }
 
+/// Bodies of the tables [gravity] and [tilt_inertia].
+template <class Section, class Value>
+std::vector<std::pair<const char*, Value Section::*>> members(SpaceOf of) {
+  if (of == SpaceOf::pair) return {{"pinion", &Section::pinion}, {"wheel", &Section::wheel}};
+  return {{"sun", &Section::sun}, {"planet", &Section::planet}, {"ring", &Section::ring}, {"carrier", &Section::carrier}};
+}
+
 template <class Section>
-void declare_body(Declarations<Section>& t, const char* meaning) {
-  t.choice("body", &Section::body, bodies(), meaning).required();
+void declare_body(Declarations<Section>& t, SpaceOf of, const char* meaning) {
+  t.choice("body", &Section::body, bodies(of), meaning).required();
+  if (of == SpaceOf::pair) return;
   t.key("planet", &Section::planet, "Number of the planet, from 1 on.")
       .from(1, 100)
       .only_if(is("body", {"planet"}), "other bodies have no numbers")
@@ -47,25 +53,28 @@ void declare_body(Declarations<Section>& t, const char* meaning) {
 }
 
 template <class Section>
-void declare_frame(Declarations<Section>& t, const char* meaning) {
+void declare_frame(Declarations<Section>& t, SpaceOf of, const char* meaning) {
+  if (of == SpaceOf::pair) return;
   t.choice("frame", &Section::frame, {{"housing", StageFrame::housing}, {"carrier", StageFrame::carrier}}, meaning)
       .fallback("housing", "it stands still while the carrier turns");
 }
 
-Table bearing_table() {
+Table bearing_table(SpaceOf of) {
   auto bearing =
       declare_list("bearing",
                    "A bearing, coupling or mount in its place on the axis. A body that has any is held by these "
-                   "alone; others have their radial support of [supports] and neither move along the axis nor tilt.",
+                   "alone; others have their radial support of [supports], or the bearings of their gear, and neither "
+                   "move along the axis nor tilt.",
                    &SpaceInput::bearings);
   bearing.on_request();
   bearing.key("name", &BearingInput::name, "Name in results.").required();
-  declare_body(bearing, "The body that it holds.");
+  declare_body(bearing, of, "The body that it holds.");
+  if (of == SpaceOf::planetary)
   bearing
-      .choice("on", &BearingInput::on,
-              {{"housing", Body::housing}, {"carrier", Body::carrier}, {"sun", Body::sun}, {"ring", Body::ring}},
-              "The body on which it stands.")
-      .absent("the housing; of planets the carrier");
+        .choice("on", &BearingInput::on,
+                {{"housing", Body::housing}, {"carrier", Body::carrier}, {"sun", Body::sun}, {"ring", Body::ring}},
+                "The body on which it stands.")
+        .absent("the housing; of planets the carrier");
   bearing
       .key("at_mm", &BearingInput::place, "Place of its middle along the axis, from the middle of the face of [stage].")
       .fallback(0.0, "in the middle of the face")
@@ -84,7 +93,7 @@ Table bearing_table() {
       .absent("none");
   for (const auto& [name, member, meaning] :
        {std::tuple{"x_N_per_m", &BearingInput::x,
-                   "Stiffness along x: towards planet 1 at time 0; of planets radially outwards."},
+                   "Stiffness along x: towards planet 1 at time 0; of planets radially outwards; of a pair from the pinion to the wheel."},
         {"y_N_per_m", &BearingInput::y, "Stiffness along y; of planets tangentially."}})
     stiffness(name, member, meaning)
         .refused_if(has_matrix, why_matrix)
@@ -191,21 +200,21 @@ Table bearing_table() {
       .from(-1e15, 1e15)
       .longest(25)
       .absent("the single stiffnesses");
-  declare_frame(bearing, "Frame in which x and y point; of planets always their own.");
+  declare_frame(bearing, of, "Frame in which x and y point; of planets always their own.");
   return bearing.done();
 }
 
-Table load_table() {
+Table load_table(SpaceOf of) {
   auto load = declare_list("load", "A force and a moment on a body from without, beside the torque of [stage].",
                            &SpaceInput::loads);
   load.on_request();
   load.key("name", &LoadInput::name, "Name in results.").required();
-  declare_body(load, "The body on which it acts.");
-  declare_frame(load,
+  declare_body(load, of, "The body on which it acts.");
+  declare_frame(load, of,
                 "Frame in which it is given: x towards planet 1, z along the axis. housing: as the carrier stands at "
                 "time 0.");
   load.key("at_mm", &LoadInput::point,
-           "Point at which the force acts, x, y, z from the middle of the stage, or of the planet.")
+           "Point at which the force acts, x, y, z from the middle of the stage, or of the planet or gear.")
       .from(-furthest_mm, furthest_mm)
       .longest(3)
       .absent("the middle");
@@ -221,7 +230,7 @@ Table load_table() {
   return load.done();
 }
 
-Table gravity_table() {
+Table gravity_table(SpaceOf of) {
   Declarations<GravityInput> gravity("gravity", "Weight of all bodies.", [](Scene& s, std::size_t) -> GravityInput& {
     auto& g = s.own<SpaceInput>().gravity;
     return g ? *g : g.emplace();
@@ -232,7 +241,8 @@ Table gravity_table() {
       .from(0, 1000);
   gravity
       .key("direction_deg", &GravityInput::direction,
-           "Its direction in the transverse plane, counter-clockwise from planet 1 at time 0.")
+           "Its direction in the transverse plane, counter-clockwise from planet 1 at time 0; of a pair from "
+           "the direction of the wheel's axis.")
       .required()
       .from(-360, 360);
   gravity
@@ -240,10 +250,7 @@ Table gravity_table() {
            "Angle by which it leans out of the transverse plane towards +z: that of the axis with the horizontal.")
       .fallback(0.0, "the axis is horizontal")
       .from(-90, 90);
-  for (const auto& [body, member] : {std::pair{"sun", &GravityInput::sun},
-                                     {"planet", &GravityInput::planet},
-                                     {"ring", &GravityInput::ring},
-                                     {"carrier", &GravityInput::carrier}})
+  for (const auto& [body, member] : members<GravityInput, double>(of))
     gravity
         .key(fmt::format("{}_at_mm", body), member,
              fmt::format("Centre of mass of the {} along the axis, from the middle of the face of [stage].", body))
@@ -252,95 +259,16 @@ Table gravity_table() {
   return gravity.done();
 }
 
-Table carrier_structure_table() {
-  Declarations<CarrierStructureInput> structure(
-      "carrier_structure",
-      "What the carrier gives way, beside the pins: webs between two rigid walls, in which the pins are clamped, or a "
-      "stiffness matrix. The wall with the shaft is the body of the carrier; the other one winds up against it.",
-      [](Scene& s, std::size_t) -> CarrierStructureInput& {
-        auto& c = s.own<SpaceInput>().carrier_structure;
-        return c ? *c : c.emplace();
-      });
-  structure.on_request();
-  structure
-      .key("stiffness_file", &CarrierStructureInput::file,
-           "File (CSV) with the stiffness of pins and carrier in the middles of the planets, the shaft held "
-           "(docs/exchange.md), such as a reduced finite-element model has. The path is relative to the scene.")
-      .absent("webs");
-  structure.key("webs", &CarrierStructureInput::webs, "Number of webs, evenly spaced.")
-      .from(2, 50)
-      .absent("a matrix")
-      .one_of({"stiffness_file"});
-  const auto webs = given("webs");
-  const auto length = [&](const char* key, std::optional<double> CarrierStructureInput::*member, const char* meaning) {
-    structure.key(key, member, meaning).above(0, furthest_mm).needed_if(webs);
-  };
-  length("web_circle_diameter_mm", &CarrierStructureInput::web_circle, "Diameter of the circle of their centres.");
-  length("web_length_mm", &CarrierStructureInput::web_length, "Their length, from wall to wall.");
-  length("web_width_mm", &CarrierStructureInput::web_width, "Their tangential width.");
-  length("web_depth_mm", &CarrierStructureInput::web_depth, "Their radial depth.");
-  structure
-      .key("first_web_deg", &CarrierStructureInput::first_web,
-           "Place of the first web, counter-clockwise from planet 1.")
-      .from(-360, 360)
-      .only_if(webs, "a matrix has no webs")
-      .absent("half-way to planet 2");
-  structure
-      .choice("shaft", &CarrierStructureInput::shaft, {{"-z", dynamics::Side::low}, {"+z", dynamics::Side::high}},
-              "The side of the wall that has the shaft.")
-      .only_if(webs, "in a matrix the shaft is held")
-      .fallback("-z", "the torque enters there");
-  return structure.done();
-}
-
-Table housing_table() {
-  Declarations<HousingInput> housing(
-      "housing", "What the housing gives way behind the bearings that stand on it.",
-      [](Scene& s, std::size_t) -> HousingInput& {
-        auto& h = s.own<SpaceInput>().housing;
-        return h ? *h : h.emplace();
-      });
-  housing.on_request();
-  housing
-      .key("stiffness_file", &HousingInput::file,
-           "File (CSV) with the stiffness of the housing in the places of [[bearing]] tables (docs/exchange.md), such "
-           "as a reduced finite-element model has. Bearings that it does not contain stand on rigid ground. The path "
-           "is relative to the scene.")
-      .required();
-  return housing.done();
-}
-
-Table tilt_inertia_table() {
+Table tilt_inertia_table(SpaceOf of) {
   Declarations<TiltInertiaInput> tilting(
       "tilt_inertia", "Moments of inertia about an axis across the body's own, through the middle of the face.",
       [](Scene& s, std::size_t) -> TiltInertiaInput& { return s.own<SpaceInput>().tilt_inertia; });
   tilting.on_request();
-  for (const auto& [body, member] : {std::pair{"sun", &TiltInertiaInput::sun},
-                                     {"planet", &TiltInertiaInput::planet},
-                                     {"ring", &TiltInertiaInput::ring},
-                                     {"carrier", &TiltInertiaInput::carrier}})
+  for (const auto& [body, member] : members<TiltInertiaInput, std::optional<double>>(of))
     tilting.key(fmt::format("{}_kg_m2", body), member, fmt::format("Of the {}.", body))
         .above(0, 1e9)
         .absent("a uniform cylinder as wide as the face: I/2 + m b^2/12");
   return tilting.done();
-}
-
-Table statics_table() {
-  Declarations<StaticsInput> statics(
-      "statics", "Positions of annulus statics.",
-      [](Scene& s, std::size_t) -> StaticsInput& { return s.own<SpaceInput>().statics; });
-  statics.optional();
-  statics
-      .key("carrier_positions", &StaticsInput::places,
-           "Positions of the carrier over the mesh cycles after which the forces repeat, at most one in each. These "
-           "are a "
-           "turn where weight and loads of the housing act, otherwise the common period of the errors.")
-      .from(1, 100000)
-      .absent("32; with eccentric gears or pitch deviations 768, or 96 of solid gears");
-  statics.key("mesh_phases", &StaticsInput::phases, "Positions in the mesh cycle that begins at each of them.")
-      .from(1, 1000)
-      .absent("one where no stiffness changes in the mesh cycle, 4 of solid gears, otherwise 8");
-  return statics.done();
 }
 
 /// Has a force a torque about the axis, beyond rounding?
@@ -360,8 +288,6 @@ class SpaceChecks : KeyChecks {
     names("load.name", space.loads);
     for (std::size_t i = 0; i < space.bearings.size(); ++i) bearing(i, space.bearings[i]);
     for (std::size_t i = 0; i < space.loads.size(); ++i) load(i, space.loads[i]);
-    if (auto& structure = scene_.own<SpaceInput>().carrier_structure) carrier(*structure);
-    if (auto& given = scene_.own<SpaceInput>().housing) housing(*given);
   }
 
  private:
@@ -433,62 +359,18 @@ class SpaceChecks : KeyChecks {
     }
   }
 
-  void carrier(CarrierStructureInput& structure) {
-    const auto& s = scene_.supports;
-    if (structure.webs && usable("carrier_structure.webs") && usable("supports.planet_pin")) {
-      if (s.planet_pin != PinMounting::between_walls)
-        return problem("carrier_structure.webs",
-                       "needs pins that are clamped in both walls: use supports.planet_pin = \"between_walls\"");
-      const auto* key = "carrier_structure.web_length_mm";
-      if (s.pin_length && structure.web_length && usable(key) && *structure.web_length > 2 * *s.pin_length)
-        problem(key, fmt::format("is more than twice the length of the pins between the same walls, {:g} mm",
-                                 *s.pin_length / units::mm));
-    }
-    if (!structure.file || !usable("carrier_structure.stiffness_file")) return;
-    if (s.planet_pin != PinMounting::unbending && usable("supports.planet_pin"))
-      return problem("carrier_structure.stiffness_file",
-                     "contains the pins: leave out supports.planet_pin and its sizes");
-    if (!usable("stage.planets")) return;
-    try {
-      structure.stiffness = read_carrier_stiffness(file_below_scene(scene_, *structure.file), scene_.stage.planets);
-    } catch (const InputError& error) {
-      problem("carrier_structure.stiffness_file", error.what());
-    }
-  }
-
-  void housing(HousingInput& input) {
-    const std::string key = "housing.stiffness_file";
-    if (!usable(key)) return;
-    const auto& bearings = scene_.own<SpaceInput>().bearings;
-    std::vector<std::string> known, of_ring;
-    for (std::size_t i = 0; i < bearings.size(); ++i) {
-      const auto& b = bearings[i];
-      const bool wrong_on = given("bearing.on", i) && !usable("bearing.on", i);
-      if (!usable("bearing.name", i) || !usable("bearing.body", i) || wrong_on) return;
-      if (b.body == Body::planet || b.on.value_or(Body::housing) != Body::housing) continue;
-      known.push_back(column_of(b.name));
-      if (b.body == Body::ring) of_ring.push_back(known.back());
-    }
-    if (known.empty()) return problem(key, "needs bearings that stand on the housing: add [[bearing]]");
-    // The torque of a ring that is held enters the housing in its bearing.
-    const bool held = scene_.stage.held == geometry::StageMember::ring;
-    try {
-      input.seats = read_point_stiffness(file_below_scene(scene_, input.file), known,
-                                         held ? of_ring : std::vector<std::string>{}, "the foundation held");
-    } catch (const InputError& error) {
-      problem(key, error.what());
-    }
-  }
-
   void row(std::size_t i, const BearingInput& b) {
-    const auto diameter = b.balls ? b.ball_diameter : b.roller_diameter;
     const bool inclined = b.balls || b.contact_angle != 0;
+    const std::string count = b.balls ? "bearing.balls" : "bearing.rollers";
+    const bool sized = b.balls ? b.ball_diameter.has_value() : b.roller_diameter && b.roller_length;
     if (b.rollers && inclined && !b.pitch_diameter && usable("bearing.contact_angle_deg", i))
       problem("bearing.contact_angle_deg", i, "needs the place of the contacts; give bearing.pitch_diameter_mm");
-    if (inclined && b.pitch_diameter && diameter && *b.pitch_diameter <= *diameter &&
-        usable("bearing.pitch_diameter_mm", i))
-      problem("bearing.pitch_diameter_mm", i,
-              fmt::format("must be larger than the diameter of the rolling elements, {:g} mm", *diameter / units::mm));
+    else if (usable(count, i) && sized && (!b.balls || b.pitch_diameter))
+      try {
+        (void)dynamics::law_of(rolling_row(b), true);
+      } catch (const InputError& error) {
+        problem(count, i, error.what());
+      }
     if (inclined && given("bearing.axial_N_per_m", i) && usable("bearing.axial_N_per_m", i))
       problem("bearing.axial_N_per_m", i,
               "the rolling elements hold along the axis by themselves; leave it out, or give another bearing");
@@ -502,8 +384,7 @@ class SpaceChecks : KeyChecks {
         problem(key, i, fmt::format("needs three values, x, y and z, not {}", list->size()));
     if (l.moment.size() == 3 && l.moment[2] != 0 && usable("load.moment_Nm", i))
       problem("load.moment_Nm", i,
-              "has a part about z: that is a torque, which stage.sun_torque_Nm, carrier_torque_Nm, ring_torque_Nm or "
-              "power_kW gives; use 0");
+              "has a part about z: that is a torque, which [stage] gives; use 0");
     if (l.force.size() == 3 && l.point.size() == 3 && l.body != Body::planet && usable("load.force_N", i) &&
         usable("load.at_mm", i) && twists(l.point, l.force))
       problem("load.at_mm", i,
@@ -516,45 +397,28 @@ class SpaceChecks : KeyChecks {
                                                    "bearing.tilt_Nm_per_rad", "bearing.stiffness_5x5_N_m_rad"};
 };
 
-void reverse(std::vector<double>& list, std::initializer_list<std::size_t> which) {
-  if (list.size() != 3) return;
-  for (const std::size_t i : which) list[i] = -list[i];
-}
-
 }  // namespace
 
-std::vector<Table> space_tables() {
-  return {bearing_table(),           load_table(),         gravity_table(),
-          carrier_structure_table(), housing_table(),      tilt_inertia_table(), statics_table()};
+dynamics::RollingRow rolling_row(const BearingInput& input) {
+  using Row = dynamics::RollingRow;
+  Row row;
+  row.element = input.balls ? Row::Element::ball : Row::Element::roller;
+  row.count = input.balls ? *input.balls : *input.rollers;
+  row.diameter = input.balls ? *input.ball_diameter : *input.roller_diameter;
+  row.length = input.roller_length.value_or(0);
+  row.pitch_diameter = input.pitch_diameter.value_or(0);
+  row.contact_angle = input.contact_angle;
+  row.clearance = input.clearance;
+  row.inner_groove = input.inner_groove;
+  row.outer_groove = input.outer_groove;
+  row.ring = input.ring.value_or(input.body == Body::planet ? Row::Ring::outer : Row::Ring::inner);
+  return row;
+}
+
+std::vector<Table> space_tables(SpaceOf of) {
+  return {bearing_table(of), load_table(of), gravity_table(of), tilt_inertia_table(of)};
 }
 
 void check_space(Scene& scene, std::vector<Problem>& problems) { SpaceChecks(scene, problems).run(); }
-
-void mirror_space(Scene& scene) {
-  auto& space = scene.own<SpaceInput>();
-  for (auto& b : space.bearings) {
-    if (b.matrix.size() != 25) continue;
-    constexpr double sign[] = {1, -1, 1, -1, 1};
-    for (std::size_t i = 0; i < 25; ++i) b.matrix[i] *= sign[i / 5] * sign[i % 5];
-  }
-  const auto mirror = [](Eigen::MatrixXd& stiffness, bool turns) {
-    constexpr int sign[] = {1, -1, 1, -1, 1};
-    Eigen::VectorXd signs(stiffness.rows());
-    for (Eigen::Index i = 0; i < signs.size(); ++i) signs[i] = sign[i % 5];
-    if (turns) signs[signs.size() - 1] = -1;  // about z
-    stiffness = signs.asDiagonal() * stiffness * signs.asDiagonal();
-  };
-  if (auto& structure = space.carrier_structure) {
-    if (structure->webs) structure->first_web = -structure->first_web.value_or(M_PI / scene.stage.planets);
-    mirror(structure->stiffness, false);
-  }
-  if (space.housing) mirror(space.housing->seats.stiffness, space.housing->seats.turns);
-  for (auto& l : space.loads) {
-    reverse(l.point, {1});
-    reverse(l.force, {1});
-    reverse(l.moment, {0, 2});
-  }
-  if (space.gravity) space.gravity->direction = -space.gravity->direction;
-}
 
 }  // namespace annulus::app

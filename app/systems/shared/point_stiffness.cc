@@ -1,4 +1,4 @@
-#include "app/systems/planetary/point_stiffness.h"
+#include "app/systems/shared/point_stiffness.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/csv.h"
 #include "core/errors.h"
@@ -48,19 +49,35 @@ Columns columns_of(const Csv& csv, const std::vector<std::string>& known, const 
       continue;
     }
     if (last >= 0)
-      throw InputError(fmt::format("contains rotations about z of several of the points {}, in which a torque enters: "
-                                   "leave all of them out but one",
-                                   fmt::join(turning, ", ")));
+      throw InputError(
+          fmt::format("contains rotations about z of several of the points {}, in which a torque enters: "
+                      "leave all of them out but one",
+                      fmt::join(turning, ", ")));
     last = place[5];
   }
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i])
-      throw InputError(fmt::format("column {} is '{}': its columns are <point>_x_m, _y_m, _z_m, _about_x_rad, "
-                                   "_about_y_rad and, if need be, _about_z_rad, and its points {}",
-                                   i + 1, csv.columns[i], fmt::join(known, ", ")));
+      throw InputError(
+          fmt::format("column {} is '{}': its columns are <point>_x_m, _y_m, _z_m, _about_x_rad, "
+                      "_about_y_rad and, if need be, _about_z_rad, and its points {}",
+                      i + 1, csv.columns[i], fmt::join(known, ", ")));
   result.turns = last >= 0;
   if (result.turns) columns.kept.push_back(last);
   return columns;
+}
+
+/// Numbers of few digits differ across the diagonal.
+void check_entries(const Csv& csv, const Eigen::MatrixXd& given) {
+  constexpr double digits = 1e-5;
+  const auto name = [&](Eigen::Index i) { return csv.columns[static_cast<std::size_t>(i)]; };
+  for (Eigen::Index i = 0; i < given.rows(); ++i)
+    if (!(given(i, i) >= 0) || !std::isfinite(given(i, i)))
+      throw InputError(fmt::format("has {:g} in row and column {}: nothing resists this motion", given(i, i), name(i)));
+  for (Eigen::Index i = 0; i < given.rows(); ++i)
+    for (Eigen::Index j = 0; j < i; ++j)
+      if (!(std::abs(given(i, j) - given(j, i)) <= digits * std::sqrt(given(i, i) * given(j, j))))
+        throw InputError(fmt::format("is not symmetric: {:g} and {:g} between {} and {}", given(i, j), given(j, i),
+                                     name(i), name(j)));
 }
 
 }  // namespace
@@ -77,7 +94,9 @@ PointStiffness read_point_stiffness(const std::filesystem::path& file, const std
   for (Eigen::Index i = 0; i < size; ++i)
     for (Eigen::Index j = 0; j < size; ++j)
       given(i, j) = csv.rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  (void)dynamics::LinearLaw(given);  // symmetric, and gives no energy away
+  check_entries(csv, given);
+  given = (given + given.transpose()).eval() / 2;
+  (void)dynamics::LinearLaw(given);  // gives no energy away
   Eigen::MatrixXd& kept = result.stiffness;
   kept = given(columns.kept, columns.kept);
   if (!columns.condensed.empty()) {

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "app/systems/planetary/point_stiffness.h"
+#include "app/systems/shared/point_stiffness.h"
 #include "dynamics/spatial/carrier_structure.h"
 #include "dynamics/systems/planetary/spatial_stage.h"
 
 namespace annulus::app {
 
-/// What the scene of a planetary stage has in three dimensions; SI.
+/// What the scene of a planetary stage or a pair has in three dimensions; SI.
 
 struct BearingInput {
   using Body = dynamics::StageBody::Kind;
@@ -48,8 +48,11 @@ struct LoadInput {
 
 struct GravityInput {
   double acceleration = 0, direction = 0, inclination = 0;
-  double sun = 0, planet = 0, ring = 0, carrier = 0;  ///< m, centres of mass on the axes
+  /// m, centres of mass on the axes.
+  double sun = 0, planet = 0, ring = 0, carrier = 0, pinion = 0, wheel = 0;
 };
+
+[[nodiscard]] dynamics::RollingRow rolling_row(const BearingInput& bearing);
 
 /// The name of a bearing in columns and files.
 [[nodiscard]] inline std::string column_of(std::string bearing) {
@@ -62,6 +65,7 @@ struct CarrierStructureInput {
   std::optional<int> webs;
   std::optional<double> web_circle, web_length, web_width, web_depth, first_web;
   dynamics::Side shaft = dynamics::Side::low;
+  bool mirrored = false;  ///< in a mirror image the first web is on the other side of planet 1
   std::optional<std::string> file;
   Eigen::MatrixXd stiffness{};  ///< that of the file: read_carrier_stiffness()
 };
@@ -72,7 +76,7 @@ struct HousingInput {
 };
 
 struct TiltInertiaInput {
-  std::optional<double> sun, ring, carrier, planet;
+  std::optional<double> sun, ring, carrier, planet, pinion, wheel;
 };
 
 struct StaticsInput {
@@ -80,7 +84,7 @@ struct StaticsInput {
   std::optional<int> phases;
 };
 
-/// Inputs of planetary stages alone (Scene::own).
+/// Inputs of these systems (Scene::own).
 struct SpaceInput {
   std::vector<BearingInput> bearings;
   std::vector<LoadInput> loads;
@@ -90,7 +94,9 @@ struct SpaceInput {
   TiltInertiaInput tilt_inertia;
   StaticsInput statics;
 
-  [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity || carrier_structure || housing; }
+  [[nodiscard]] bool any() const {
+    return !bearings.empty() || !loads.empty() || gravity || carrier_structure || housing;
+  }
 };
 
 }  // namespace annulus::app

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/elastic_law.h"
+#include "dynamics/spatial/mechanism.h"
+#include "dynamics/spatial/rolling_rows.h"
+#include "dynamics/spatial/stage_bodies.h"
+#include "dynamics/system/support.h"
+
+namespace annulus::dynamics {
+
+/// A bearing between two bodies in a place on the axis of the first: force and moment from the displacement (x, y, z)
+/// and the tilt (about x, y) of `body` against `on` there. It has no torque about the axis.
+struct StageBearing {
+  std::string name;
+  StageBody body, on;
+  StageFrame frame = StageFrame::housing;
+  double place = 0;                         ///< m, z
+  double x = 0, y = 0;                      ///< N/m; `rigid`: does not move
+  double axial = 0;                         ///< N/m
+  double tilt = 0;                          ///< N m/rad, about x and y
+  double play = 0;                          ///< m, half the radial clearance; x and y are then equal and finite
+  bool load_zone = true;                    ///< with play: RadialBearing; else a stop (StopLaw)
+  double axial_play = 0;                    ///< m, half the axial clearance
+  std::vector<double> distance{}, force{};  ///< m, N: radial, over each other, instead of x, y and play (TableLaw)
+  std::optional<RollingRow> row{};          ///< instead of x, y, tilt and play, with a contact angle of axial too
+  double seat = rigid;                      ///< N/m, in series with a bearing that has play and a load zone
+  [[nodiscard]] bool holds_radially() const { return matrix || row || !distance.empty() || x > 0 || y > 0; }
+  std::optional<Eigen::Matrix<double, 5, 5>> matrix{};  ///< instead of the stiffnesses; SI
+};
+
+/// A force and a moment on a body at a point (m, from the middle of the stage's axis, or a planet's).
+struct StageLoad {
+  std::string name;
+  StageBody body;
+  StageFrame frame = StageFrame::housing;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero(), force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+  /// Whether it keeps its direction in the housing, past which the carrier turns.
+  [[nodiscard]] bool stands_in_housing() const;
+};
+
+/// Weight of a body in its centre of mass, which is on its axis.
+struct StageWeight {
+  StageBody body;
+  double mass = 0;   ///< kg
+  double place = 0;  ///< m, z
+};
+
+/// Does a displacement in the plane call for no axial force and no tilting moment? Five coordinates per body; rounding
+/// counts as nothing.
+[[nodiscard]] bool keeps_plane(const Eigen::MatrixXd& stiffness);
+/// Adds why loads and weights, or bearings, move bodies along the axis or tilt them. `gravity`: m/s^2.
+void add_reasons(std::vector<std::string>& reasons, const std::vector<StageLoad>& loads,
+                 const std::vector<StageWeight>& weights, const Eigen::Vector3d& gravity);
+void add_reasons(std::vector<std::string>& reasons, const std::vector<StageBearing>& bearings);
+
+/// A bearing in a mechanism, or the support that a body without one has.
+struct MadeBearing {
+  std::string name;
+  StageBody body, on;
+  StageFrame frame = StageFrame::housing;
+  double place = 0;                                    ///< m, z
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of its frame, as columns
+  /// x, y, z, about x, about y: the element and coordinate that resists it, or the hold; -1: nothing.
+  std::array<int, 5> element{-1, -1, -1, -1, -1}, coordinate{}, held{-1, -1, -1, -1, -1};
+  std::shared_ptr<const RollingRowLaw> row{};  ///< of its first element; null: it has no rolling elements
+};
+
+/// Where a bearing stands: numbers of its bodies in a mechanism, the middle of what it holds, axes of its frame
+/// (columns).
+struct BearingPlace {
+  int body = 0, on = Mechanism::ground;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
+/// Adds bearings to a mechanism.
+class BearingAssembly {
+ public:
+  /// `in_space`: bodies move along the axis and tilt.
+  BearingAssembly(Mechanism& mechanism, bool in_space) : mechanism_(mechanism), space_(in_space) {}
+
+  [[nodiscard]] MadeBearing add(const StageBearing& bearing, const BearingPlace& place);
+  /// x, y, z, about x, about y of a bearing: 0 ... 4.
+  [[nodiscard]] Mechanism::Measure measure(const StageBearing& bearing, const BearingPlace& place,
+                                           int coordinate) const;
+  /// Per hold of the mechanism: bearings that hold the same. They are its first holds.
+  [[nodiscard]] const std::vector<int>& shared() const { return shared_; }
+
+ private:
+  void add_element(MadeBearing& made, const StageBearing& bearing, const BearingPlace& place,
+                   const std::vector<int>& coordinates, std::shared_ptr<const ElasticLaw> law);
+  void hold(MadeBearing& made, const StageBearing& bearing, const BearingPlace& place, int coordinate);
+  void add_scalar(MadeBearing& made, const StageBearing& bearing, const BearingPlace& place, int coordinate,
+                  double stiffness, double play);
+
+  Mechanism& mechanism_;
+  bool space_;
+  std::vector<Mechanism::Measure> holds_;
+  std::vector<int> shared_;
+};
+
+}  // namespace annulus::dynamics
