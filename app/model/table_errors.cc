@@ -64,4 +64,13 @@ FigureSet model_results(const GearSystem& system, std::size_t variant, const std
                            {.simulation = {}, .seeks_steady_state = true, .nominal_alike = true});
 }
 
+void add_change(FigureSet& figures, const FigureSet& before, const FigureSet& after) {
+  const auto known = figures;
+  for (const auto& entry : known.entries()) {
+    auto parts = entry.parts;
+    parts.model += std::abs(after.value(entry.key) - before.value(entry.key));
+    figures.set(entry.key, {entry.figure.value, parts.total()}, parts);
+  }
+}
+
 }  // namespace annulus::app

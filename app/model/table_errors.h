@@ -20,6 +20,9 @@ using OnTables = std::function<dynamics::Evaluation(const std::vector<const Mesh
                                           const std::vector<const MeshResult*>& tables, const OnTables& evaluate,
                                           const dynamics::ComparisonOptions& way);
 
+/// Adds to the model's part of every error what changes from one model to another.
+void add_change(FigureSet& figures, const FigureSet& before, const FigureSet& after);
+
 /// The results of the lumped model of a variant, all that it answers, with the errors that its tables bring.
 [[nodiscard]] FigureSet model_results(const GearSystem& system, std::size_t variant,
                                       const std::vector<const MeshResult*>& tables);

@@ -179,10 +179,11 @@ class Mechanism::Solver {
       const double most = moved.cwiseAbs().maxCoeff(&along);
       if (most <= large * mechanism_.length_) continue;
       constexpr const char* words[] = {"x", "y", "z"};
-      throw InputError(fmt::format(
-          "nothing bears the load of the {} along {}{}: it would move by {:.3g} m. Rows of rolling elements hold in one "
-          "direction along the axis, against a displacement along +z with a positive contact angle",
-          mechanism_.body(b).name, moved[along] < 0 ? "-" : "+", words[along], most));
+      throw InputError(
+          fmt::format("nothing bears the load of the {} along {}{}: it would move by {:.3g} m. Rows of rolling "
+                      "elements hold in one "
+                      "direction along the axis, against a displacement along +z with a positive contact angle",
+                      mechanism_.body(b).name, moved[along] < 0 ? "-" : "+", words[along], most));
     }
   }
 

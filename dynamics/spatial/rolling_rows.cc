@@ -32,25 +32,27 @@ void check(const RollingRow& row) {
                                  row.diameter, row.pitch_diameter));
   const double apart = row.pitch_diameter * std::sin(std::numbers::pi / row.count);
   if (row.pitch_diameter > 0 && !(apart > row.diameter))
-    throw InputError(fmt::format("{} {} of {:g} m on a diameter of {:g} m overlap: the middles of neighbours are {:.4g} "
-                                 "m apart",
-                                 row.count, name, row.diameter, row.pitch_diameter, apart));
+    throw InputError(
+        fmt::format("{} {} of {:g} m on a diameter of {:g} m overlap: the middles of neighbours are {:.4g} "
+                    "m apart",
+                    row.count, name, row.diameter, row.pitch_diameter, apart));
   if (!ball && row.contact_angle != 0 && !(row.pitch_diameter > row.length * std::abs(std::sin(row.contact_angle))))
-    throw InputError(fmt::format("rollers of a length of {:g} m reach the axis at their end: the pitch diameter is {:g} "
-                                 "m, the contact angle {:g} rad",
-                                 row.length, row.pitch_diameter, row.contact_angle));
+    throw InputError(
+        fmt::format("rollers of a length of {:g} m reach the axis at their end: the pitch diameter is {:g} "
+                    "m, the contact angle {:g} rad",
+                    row.length, row.pitch_diameter, row.contact_angle));
   if (!(std::abs(row.contact_angle) < std::numbers::pi / 2))
     throw InputError(fmt::format("a row of {} has a contact angle of {:g} rad, not between -pi/2 and pi/2", name,
                                  row.contact_angle));
   if (ball && !(row.inner_groove > 0.5 && row.outer_groove > 0.5))
     throw InputError(fmt::format("grooves of {:g} and {:g} of the ball's diameter: their radii must exceed its half",
                                  row.inner_groove, row.outer_groove));
-  const double most =
-      2 * (row.inner_groove + row.outer_groove - 1) * row.diameter * std::cos(row.contact_angle);
+  const double most = 2 * (row.inner_groove + row.outer_groove - 1) * row.diameter * std::cos(row.contact_angle);
   if (ball && !(row.clearance < most))
-    throw InputError(fmt::format("a clearance of {:g} m takes the balls out of their grooves, whose centres are {:.4g} m "
-                                 "apart across the axis",
-                                 row.clearance, most / 2));
+    throw InputError(
+        fmt::format("a clearance of {:g} m takes the balls out of their grooves, whose centres are {:.4g} m "
+                    "apart across the axis",
+                    row.clearance, most / 2));
 }
 
 std::vector<int> coordinates_of(const RollingRow& row, bool in_space) {

@@ -343,12 +343,13 @@ BOOST_AUTO_TEST_CASE(a_carrier_that_gives_way) {
   refused("planet1_x_m\n1\n", "3 planets have 5 or 6 coordinates each");
 }
 
-// A row of rollers with a contact angle holds its body in one direction along the axis. In the other one what is left of
-// it in its play would let the carrier go.
+// A row of rollers with a contact angle holds its body in one direction along the axis. In the other one what is left
+// of it in its play would let the carrier go.
 BOOST_AUTO_TEST_CASE(a_row_that_is_loaded_the_wrong_way_is_refused) {
   const test::TemporaryFolder folder("statics_8");
   const auto scene = [](double thrust) {
-    return helical_stage() + bearing("spline", "sun", "radial_N_per_m = 1e9\naxial_N_per_m = 3e8\ntilt_Nm_per_rad = 1e8\n") +
+    return helical_stage() +
+           bearing("spline", "sun", "radial_N_per_m = 1e9\naxial_N_per_m = 3e8\ntilt_Nm_per_rad = 1e8\n") +
            bearing("planets", "planet", "radial_N_per_m = 2e9\naxial_N_per_m = 1e9\ntilt_Nm_per_rad = 1e8\n") +
            bearing("row", "carrier",
                    "rollers = 30\nroller_length_mm = 40\nroller_diameter_mm = 30\npitch_diameter_mm = 400\n"

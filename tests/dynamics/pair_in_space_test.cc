@@ -51,9 +51,9 @@ HelicalPair lumped(HelicalPair pair, const SpatialPair& s) {
 
 /// Bearings on either side, unlike, with an overhung pinion.
 std::vector<StageBearing> unlike_bearings() {
-  auto list = std::vector{bearing("near", {Kind::pinion}, {}, 0.12, 2e9, 5e8), bearing("far", {Kind::pinion}, {}, 0.4, 1e9),
-                          bearing("left", {Kind::wheel}, {}, -0.2, 2e9, 8e8, 1e6),
-                          bearing("right", {Kind::wheel}, {}, 0.3, 1.5e9)};
+  auto list = std::vector{
+      bearing("near", {Kind::pinion}, {}, 0.12, 2e9, 5e8), bearing("far", {Kind::pinion}, {}, 0.4, 1e9),
+      bearing("left", {Kind::wheel}, {}, -0.2, 2e9, 8e8, 1e6), bearing("right", {Kind::wheel}, {}, 0.3, 1.5e9)};
   list[1].y = 1.4e9;
   return list;
 }
@@ -122,7 +122,8 @@ class RigidPair {
 
 // Both gears with six degrees of freedom.
 BOOST_AUTO_TEST_CASE(modes_are_those_of_rigid_bodies_with_exact_rotations) {
-  annulus::test::Verification record("Modes of a helical pair in space", "potential of rigid bodies with exact rotations");
+  annulus::test::Verification record("Modes of a helical pair in space",
+                                     "potential of rigid bodies with exact rotations");
   for (const double sign : {1.0, -1.0}) {
     auto pair = linear_pair();
     pair.base_helix_angle *= sign;
@@ -185,8 +186,8 @@ BOOST_AUTO_TEST_CASE(reactions_of_two_bearings) {
     Vector3d force = -found.force * normal;
     Vector3d moment = pitch_point.cross(force);
     Eigen::Matrix3d axes;  // of the lumped model, as columns
-    axes << std::cos(working_angle), std::sin(working_angle), 0, -std::sin(working_angle), std::cos(working_angle), 0, 0,
-        0, 1;
+    axes << std::cos(working_angle), std::sin(working_angle), 0, -std::sin(working_angle), std::cos(working_angle), 0,
+        0, 0, 1;
     const auto add = [&](const Vector3d& point, const Vector3d& f, const Vector3d& m) {
       force += axes.transpose() * f;
       moment += axes.transpose() * (point.cross(f) + m);
@@ -232,16 +233,18 @@ BOOST_AUTO_TEST_CASE(the_plane_is_a_setting) {
     const auto expected = evaluate_pair(plane), response = evaluate_pair(in_space);
     record.close(std::string("largest force, ") + name, "N", response.force_max.value, expected.force_max.value, 1e-6,
                  "tolerance of the harmonic balance");
-    record.close(std::string("transmission error, ") + name, "m", response.dynamic.transmission_error.peak_to_peak.value,
+    record.close(std::string("transmission error, ") + name, "m",
+                 response.dynamic.transmission_error.peak_to_peak.value,
                  expected.dynamic.transmission_error.peak_to_peak.value, 1e-5, "tolerance of the harmonic balance");
   };
   auto paper = pairs::error_paper();
-  compare(paper,
-          spatial(paper, {bearing("pinion", {Kind::pinion}, {}, 0, paper.pinion.bearing_transverse,
-                                  paper.pinion.bearing_axial, rigid),
-                          bearing("wheel", {Kind::wheel}, {}, 0, paper.wheel.bearing_transverse,
-                                  paper.wheel.bearing_axial, rigid)}),
-          "tilts held");
+  compare(
+      paper,
+      spatial(
+          paper,
+          {bearing("pinion", {Kind::pinion}, {}, 0, paper.pinion.bearing_transverse, paper.pinion.bearing_axial, rigid),
+           bearing("wheel", {Kind::wheel}, {}, 0, paper.wheel.bearing_transverse, paper.wheel.bearing_axial, rigid)}),
+      "tilts held");
   auto spur = paper;
   spur.base_helix_angle = 0;
   spur.pinion.bearing_axial = spur.wheel.bearing_axial = rigid;
@@ -275,8 +278,9 @@ BOOST_AUTO_TEST_CASE(bearings_about_the_equilibrium) {
   const auto pair = lumped(plain, loose);
   const auto& found = pair.space->bearings[0];
   const Eigen::Vector2d force = found.stiffness.topLeftCorner<2, 2>() * d + found.preload.head<2>();
-  record.at_most("force of the bearing with clearance", "", (force - 2e9 * (d - 40e-6 * d.normalized())).norm() / force.norm(),
-                 1e-6, "residual of the equilibrium");
+  record.at_most("force of the bearing with clearance", "",
+                 (force - 2e9 * (d - 40e-6 * d.normalized())).norm() / force.norm(), 1e-6,
+                 "residual of the equilibrium");
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
@@ -291,7 +295,12 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   };
   refused([](auto& s) { s.bearings[0].body = {Kind::sun}; }, "names the sun");
   refused([](auto& s) { s.bearings[0].on = {Kind::wheel}; }, "stand on the housing");
-  refused([](auto& s) { s.bearings.resize(3); s.bearings.pop_back(); }, "nothing resists");
+  refused(
+      [](auto& s) {
+        s.bearings.resize(3);
+        s.bearings.pop_back();
+      },
+      "nothing resists");
   auto negative = lumped(plain, spatial(plain, unlike_bearings()));
   negative.pinion_torque = -1;
   BOOST_CHECK_THROW(negative.check(), annulus::InputError);

@@ -8,9 +8,11 @@
 #include "app/systems/helical_pair/pair_errors.h"
 #include "app/systems/helical_pair/pair_model.h"
 #include "app/systems/helical_pair/pair_scene.h"
+#include "app/systems/helical_pair/pair_space.h"
 #include "app/systems/helical_pair/pair_stiffness.h"
 #include "app/systems/shared/profile_shifts.h"
 #include "app/systems/shared/rotors.h"
+#include "app/systems/shared/space_tables.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -26,6 +28,7 @@ class PairChecker : KeyChecks {
     errors();
     dynamics();
     check_rotors(scene_, problems_, dynamics::HelicalPair().shaft_ends());
+    space();
     // What follows needs values that are all there.
     if (problems_.empty()) geometry();
   }
@@ -66,6 +69,15 @@ class PairChecker : KeyChecks {
         problem(table + "samples", fmt::format("are too few for the quantile at {}: value >= {}",
                                                to_text(m.probability), std::ceil(least)));
     }
+  }
+
+  void space() {
+    check_space(scene_, problems_);
+    if (pair_in_space(scene_) && usable("stage.pinion_torque_Nm") && scene_.stage.pinion_torque <= 0)
+      problem(
+          "stage.pinion_torque_Nm",
+          "must be above 0 with [[bearing]], [[load]] or [gravity]: gears that tilt have driving flanks alone. Of a "
+          "pinion that is driven the mirror image is meant, with helix_angle_deg of the other sign");
   }
 
   void dynamics() {

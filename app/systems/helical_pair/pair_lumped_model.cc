@@ -6,13 +6,22 @@
 #include "app/model/excitation.h"
 #include "app/model/table_errors.h"
 #include "app/results/cached_value.h"
+#include "app/systems/shared/space_members.h"
 
 namespace annulus {
 
 ANNULUS_MEMBERS(dynamics::ErrorWave, amount, phase);
 ANNULUS_MEMBERS(dynamics::PairGear, teeth, mass, inertia, radius, bearing_transverse, bearing_axial, error);
+template <>
+struct Members<dynamics::PairSpace> {
+  template <class Space>
+  static auto of(Space& s) {
+    return std::tie(static_cast<dynamics::SpaceSupports&>(s), s.working_angle, s.working_radius_pinion,
+                    s.working_radius_wheel, s.tilt_inertia_pinion, s.tilt_inertia_wheel, s.face);
+  }
+};
 ANNULUS_MEMBERS(dynamics::HelicalPair, pinion, wheel, base_helix_angle, mesh, mesh_error, half_backlash, mesh_damping,
-                bearing_damping, damping_without_contact, pinion_speed, pinion_torque, rotors);
+                bearing_damping, damping_without_contact, pinion_speed, pinion_torque, space, rotors);
 
 }  // namespace annulus
 
@@ -61,7 +70,7 @@ std::string LumpedPair::id(const dynamics::SimulationOptions& options) const {
 
 LumpedPair lumped_pair(const Scene& scene, const PairGeometry& geometry, const MeshResult& mesh, double mesh_error) {
   return {scene, geometry, stiffness_alone(mesh), mesh_error,
-          make_pair(scene, geometry, pair_excitation(scene, geometry, mesh.table), mesh_error)};
+          make_pair(scene, geometry, pair_excitation(scene, geometry, mesh.table), mesh_error, mesh.face)};
 }
 
 std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {
@@ -97,6 +106,15 @@ FigureSet carried_pair_errors(const LumpedPair& lumped, const dynamics::Simulati
         return evaluation_of(pair, dynamics::evaluate_pair(pair, way.simulation));
       },
       way);
+  // The moments of solid gears while these tilt.
+  if (const auto& space = lumped.pair.space; space && space->face.shape && space->face.shape->tilted) {
+    auto tilted = lumped.pair;
+    tilted.space->face.shape = space->face.shape->tilted;
+    const auto on = [&](const dynamics::HelicalPair& pair) {
+      return evaluation_of(pair, dynamics::evaluate_pair(pair, way.simulation)).figures;
+    };
+    add_change(figures, on(lumped.pair), on(tilted));
+  }
   set_errors(figures, response);
   return figures;
 }

@@ -6,6 +6,7 @@
 #include "app/model/excitation.h"
 #include "app/model/stiff_supports.h"
 #include "app/plan/gear_geometry.h"
+#include "app/systems/helical_pair/pair_space.h"
 #include "app/systems/shared/rotors.h"
 #include "core/errors.h"
 
@@ -66,7 +67,7 @@ PairGeometry make_pair_geometry(const Scene& scene) {
 }
 
 dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry, const dynamics::MeshExcitation& mesh,
-                                double mesh_error) {
+                                double mesh_error, const std::shared_ptr<const FaceShape>& face) {
   if (!scene.dynamics) throw InternalError("internal error: dynamics of a scene without [dynamics]");
   const auto& d = *scene.dynamics;
   const auto& e = scene.errors;
@@ -88,6 +89,7 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
   pair.pinion_speed = scene.stage.pinion_speed;
   pair.pinion_torque = scene.stage.pinion_torque;
   pair.rotors = rotors_of(scene);
+  if (pair_in_space(scene)) put_in_space(pair, scene, geometry, face);
   return pair;
 }
 

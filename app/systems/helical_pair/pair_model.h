@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "app/scene/scene.h"
+#include "core/face_shape.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "dynamics/systems/helical_pair/helical_pair.h"
 #include "geometry/gear_pair.h"
@@ -32,9 +34,11 @@ struct PairGeometry {
 /// kg m^2: the given inertia, else that of a solid disc of the reference radius; nothing without a mass.
 [[nodiscard]] std::optional<double> pair_inertia(const Scene& scene, const PairGearInput& gear);
 
-/// The lumped model. `mesh_error`: amplitude at mesh frequency, m. Throws InternalError without [dynamics].
+/// The lumped model. `mesh_error`: amplitude at mesh frequency, m. `face`: of solid gears in space, or null. Throws
+/// InternalError without [dynamics].
 [[nodiscard]] dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry,
-                                              const dynamics::MeshExcitation& mesh, double mesh_error);
+                                              const dynamics::MeshExcitation& mesh, double mesh_error,
+                                              const std::shared_ptr<const FaceShape>& face = nullptr);
 [[nodiscard]] dynamics::SimulationOptions pair_simulation(const Scene& scene);
 
 }  // namespace annulus::app

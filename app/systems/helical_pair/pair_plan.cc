@@ -8,6 +8,7 @@
 #include "app/model/stiff_supports.h"
 #include "app/plan/gear_geometry.h"
 #include "app/systems/helical_pair/pair_run.h"
+#include "app/systems/helical_pair/pair_space.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/units.h"
 #include "dynamics/steady_state/integration_cost.h"
@@ -135,7 +136,7 @@ void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan)
   add_diameters(derived, "wheel", geometry.wheel());
   plan.inputs = resolved_inputs(scene, derived);
   plan.quantities = pair_quantities(scene, geometry);
-  if (scene.dynamics) plan.dofs = pair_dofs(scene);
+  if (scene.dynamics) plan.dofs = pair_dofs_in_space(scene, geometry, pair_dofs(scene));
   plan.remarks = pair_remarks(scene, geometry, plan.meshes.front());
 }
 

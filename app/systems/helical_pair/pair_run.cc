@@ -170,6 +170,7 @@ std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshRes
   response.modes = dynamics::modes(pair);
   response.series = series_table(pair, f);
   response.spectrum = spectrum_table(f);
+  response.space = space_results(dynamics::space_motion(pair, f.series), f.window_cycles);
   f.series = {};
   result->figures = carried_pair_errors(lumped, simulation, f);
   result->motions = f.motions;
@@ -178,6 +179,7 @@ std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshRes
   write_table(response.series, id, folder / "time_series.csv");
   write_table(response.spectrum, id, folder / "spectrum.csv");
   write_table(modes_table_of(response.modes), id, folder / "modes.csv");
+  if (!response.space.bearings.empty()) write_table(response.space.table, id, folder / "bearings_in_space.csv");
   log::info(fmt::format("dynamics: {} mesh cycles integrated, {}", f.total_cycles,
                         f.steady ? "periodic steady state" : "no periodic steady state"));
   if (!scene.transmission_error) return result;

@@ -9,6 +9,7 @@
 #include "app/report/section.h"
 #include "app/systems/helical_pair/pair_errors.h"
 #include "app/systems/helical_pair/pair_stiffness.h"
+#include "app/systems/shared/space_results.h"
 #include "core/csv.h"
 #include "core/json.h"
 #include "dynamics/modes/modes.h"
@@ -43,8 +44,9 @@ struct SpeedRow {
 struct PairResponseResult {
   dynamics::PairResponse figures;  ///< without the series; errors with all their parts
   dynamics::Modes modes;
-  Csv series;    ///< one row per sample: time, DOFs, force, transmission error
-  Csv spectrum;  ///< of the mesh force
+  Csv series;            ///< one row per sample: time, DOFs, force, transmission error
+  Csv spectrum;          ///< of the mesh force
+  SpaceResults space{};  ///< of a pair in space
 };
 
 /// The answer of a pair.

@@ -7,6 +7,8 @@
 
 #include "app/model/excitation.h"
 #include "app/model/mesh_solve.h"
+#include "app/systems/helical_pair/pair_space.h"
+#include "app/systems/shared/faces.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/errors.h"
 #include "core/not_known.h"
@@ -87,7 +89,12 @@ StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& ge
 MeshResult pair_stiffness(const Scene& scene, const PairGeometry& geometry, const MeshModel& model,
                           const RunOptions& options) {
   const auto& input = scene.pinion_wheel;
-  if (model.computed()) return computed_stiffness(model, "", options);
+  if (model.computed()) {
+    auto result = computed_stiffness(model, "", options);
+    if (options.with_dynamics && scene.dynamics && pair_in_space(scene))
+      result.face = face_in_motion(result, geometry.transverse_force, options);
+    return result;
+  }
   if (input.stiffness == StiffnessShape::closed_form)
     return {.model = model,
             .table = closed_form_pair_table(scene, geometry, geometry.transverse_force),

@@ -78,6 +78,7 @@ Json response_json_of(const PairResponseResult& response) {
   auto frequencies = Json::array();
   for (const auto& mode : response.modes.modes) frequencies.push_back(mode.frequency);
   json["natural_frequencies_Hz"] = std::move(frequencies);
+  add_json(json, response.space);
   return json;
 }
 

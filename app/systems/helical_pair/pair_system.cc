@@ -12,6 +12,8 @@
 #include "app/systems/helical_pair/pair_lumped_model.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_scene.h"
+#include "app/systems/helical_pair/pair_space.h"
+#include "app/systems/shared/faces.h"
 #include "app/systems/shared/mesh_names.h"
 
 namespace annulus::app {
@@ -94,10 +96,19 @@ class PairSystem final : public GearSystem {
     warn_of_measured_flanks(list, geometry.gears, {"pinion", "wheel"}, "");
     warn_of_undercut(list, geometry.pinion(), "pinion");
     warn_of_undercut(list, geometry.wheel(), "wheel");
+    if (scene().dynamics) {
+      auto space = pair_space_warnings(scene());
+      list.insert(list.end(), space.begin(), space.end());
+    }
     if (scene().dynamics)
       warn_of_backlash(list, scene().pinion_wheel.half_backlash.value_or(scene().dynamics->half_backlash),
                        geometry.gears, "");
     return list;
+  }
+
+  [[nodiscard]] std::vector<Warning> response_warnings(const SystemRun& run, std::size_t /*variant*/) const override {
+    if (!pair_in_space(scene())) return {};
+    return face_warnings({{"mesh", &run.tables.front()}}, scene().accuracy, "");
   }
 
   [[nodiscard]] Json summary(const SystemRun& run) const override { return pair_summary(PairRunResult(run)); }

@@ -1,6 +1,10 @@
+#include <iterator>
+#include <utility>
+
 #include "app/scene/gear_tables.h"
 #include "app/systems/helical_pair/pair_scene.h"
 #include "app/systems/shared/rotors.h"
+#include "app/systems/shared/space_tables.h"
 
 namespace annulus::app {
 
@@ -166,14 +170,17 @@ Table transmission_error_table() {
 }  // namespace
 
 std::vector<Table> pair_tables() {
-  return {pair_stage_table(),
-          pair_gear_table("pinion", "The driving gear of a pair.", &Scene::pinion),
-          pair_gear_table("wheel", "The driven gear of a pair.", &Scene::wheel),
-          pair_mesh_table(),
-          rotor_table(),
-          pair_errors_table(),
-          manufacturing_error_table(),
-          transmission_error_table()};
+  std::vector<Table> tables = {pair_stage_table(),
+                               pair_gear_table("pinion", "The driving gear of a pair.", &Scene::pinion),
+                               pair_gear_table("wheel", "The driven gear of a pair.", &Scene::wheel),
+                               pair_mesh_table(),
+                               rotor_table(),
+                               pair_errors_table(),
+                               manufacturing_error_table(),
+                               transmission_error_table()};
+  auto space = space_tables(SpaceOf::pair);
+  std::move(space.begin(), space.end(), std::back_inserter(tables));
+  return tables;
 }
 
 }  // namespace annulus::app

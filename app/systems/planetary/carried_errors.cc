@@ -71,15 +71,7 @@ void add_changes(const dynamics::PlanetaryStage& here, const std::vector<dynamic
     return evaluation_of(dynamics::simulate(stage, way.simulation)).figures;
   };
   const auto before = on(here);
-  for (const auto& there : others) {
-    const auto after = on(there);
-    const auto known = figures;
-    for (const auto& entry : known.entries()) {
-      auto parts = entry.parts;
-      parts.model += std::abs(after.value(entry.key) - before.value(entry.key));
-      figures.set(entry.key, {entry.figure.value, parts.total()}, parts);
-    }
-  }
+  for (const auto& there : others) add_change(figures, before, on(there));
 }
 
 }  // namespace

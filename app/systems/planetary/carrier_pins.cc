@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "app/systems/planetary/stage_supports.h"
 #include "app/systems/shared/point_stiffness.h"
 #include "app/systems/shared/space_input.h"
-#include "app/systems/planetary/stage_supports.h"
 #include "core/errors.h"
 #include "dynamics/spatial/carrier_structure.h"
 

@@ -8,6 +8,7 @@
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_members.h"
+#include "app/systems/shared/faces.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/errors.h"
 #include "core/log.h"

@@ -23,6 +23,7 @@
 #include "app/systems/planetary/stage_warnings.h"
 #include "app/systems/planetary/statics.h"
 #include "app/systems/planetary/strain_gauges.h"
+#include "app/systems/shared/faces.h"
 #include "app/systems/shared/mesh_names.h"
 #include "app/systems/shared/rotors.h"
 #include "core/errors.h"
@@ -152,7 +153,8 @@ class PlanetarySystem final : public GearSystem {
     const auto& name = scene().rings.at(ring).name;
     auto list = stage_warnings(response.stage.figures, name);
     if (moves_in_space(scene())) {
-      auto more = face_warnings(run.tables.front(), run.tables.at(ring + 1), scene().accuracy, name);
+      auto more = face_warnings({{"sun mesh", &run.tables.front()}, {"ring mesh", &run.tables.at(ring + 1)}},
+                                scene().accuracy, name);
       std::move(more.begin(), more.end(), std::back_inserter(list));
     }
     if (response.tolerances) {

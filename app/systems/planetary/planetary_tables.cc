@@ -3,8 +3,8 @@
 #include "app/scene/gear_tables.h"
 #include "app/systems/planetary/pitch_deviations.h"
 #include "app/systems/planetary/planetary_scene.h"
-#include "app/systems/planetary/structure_tables.h"
 #include "app/systems/planetary/strain_gauges.h"
+#include "app/systems/planetary/structure_tables.h"
 #include "app/systems/shared/rotors.h"
 #include "geometry/flank_tolerances.h"
 

@@ -11,9 +11,11 @@
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
 #include "app/scene/input_place.h"
-#include "app/systems/shared/space_input.h"
 #include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/stage_members.h"
+#include "app/systems/shared/bearing_words.h"
+#include "app/systems/shared/faces.h"
+#include "app/systems/shared/space_input.h"
 #include "core/errors.h"
 #include "core/log.h"
 #include "dynamics/systems/planetary/working_point.h"
@@ -48,11 +50,6 @@ dynamics::StageSpace::TiltInertia tilt_inertia(const Scene& scene, const GearGeo
           given.planet.value_or(of_cylinder(*scene.planet.mass, *scene.planet.inertia, width(set.planet())))};
 }
 
-/// Whether a bearing's force is no linear function of its motion.
-bool bends(const BearingInput& b) {
-  return b.rolls() || !b.displacement.empty() || b.clearance > 0 || b.axial_clearance > 0;
-}
-
 bool depends_on_direction(const BearingInput& b) {
   const bool in_housing = b.body != dynamics::StageBody::Kind::planet && b.frame == dynamics::StageFrame::housing;
   return in_housing && (!b.matrix.empty() || (b.x && b.y && *b.x != *b.y));
@@ -85,8 +82,10 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
   }
   const auto& set = geometry.rings.at(ring).set;
   const auto& e = scene.errors;
-  stage.space->sun_face = motion_face(set.sun_mesh(), scene.sun_planet, sun_mesh, e.sun_planet_misalignment);
-  stage.space->ring_face = motion_face(set.ring_mesh(), scene.ring_planet, ring_mesh, e.ring_planet_misalignment);
+  stage.space->sun_face = motion_face(set.sun_mesh(), scene.sun_planet, sun_mesh.face, e.sun_planet_misalignment,
+                                      GapsAlong::transverse_section);
+  stage.space->ring_face = motion_face(set.ring_mesh(), scene.ring_planet, ring_mesh.face, e.ring_planet_misalignment,
+                                       GapsAlong::transverse_section);
   stage.sun.support = stage.ring.support = stage.carrier.support = rigid;
   stage.planet_bearings.clear();
 }
@@ -98,9 +97,7 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
   const auto frame = spatial_frame(scene, geometry, 0);
   if (space.gravity && (space.gravity->sun != 0 || space.gravity->planet != 0 || space.gravity->ring != 0 ||
                         space.gravity->carrier != 0))
-    list.push_back({"mass_in_middle", Severity::warning,
-                    "the inertia of all bodies acts in the middle of the face of [stage] in the dynamics, their weight "
-                    "in the places of [gravity]"});
+    list.push_back(mass_in_middle());
   std::vector<std::string> bent, directed;
   const auto in_housing = [&](const BearingInput& b) {
     if (!space.housing) return false;
@@ -113,12 +110,7 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
   }
   if (scene.supports.planet_clearance > 0 && !has_radial_bearing(scene, dynamics::StageBody::Kind::planet))
     bent.emplace_back("supports.planet_clearance_um");
-  if (!bent.empty())
-    list.push_back({"bearings_linear", Severity::warning,
-                    fmt::format("the dynamics has the stiffness of bearing {} at the equilibrium at time 0, and the "
-                                "force that it bears there. Motions that change its load by a large part of it are not "
-                                "right; annulus statics has its whole law",
-                                fmt::join(bent, ", "))});
+  if (!bent.empty()) list.push_back(bearings_linear(bent, "; annulus statics has its whole law"));
   if (!directed.empty())
     list.push_back({"bearings_averaged", Severity::warning,
                     fmt::format("the stiffness of bearing {} in the housing depends on the direction; the dynamics has "
@@ -130,51 +122,11 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
                                    {&space.tilt_inertia.carrier, "carrier"},
                                    {&space.tilt_inertia.planet, "planet"}})
     if (!*value) assumed.push_back(fmt::format("tilt_inertia.{}_kg_m2", key));
-  if (!assumed.empty())
-    list.push_back(
-        {"tilt_inertia_assumed", Severity::warning,
-         fmt::format("tilt inertias are those of uniform cylinders as wide as the face, because the scene does not "
-                     "mention {}. "
-                     "Natural frequencies of tilting modes depend on it",
-                     fmt::join(assumed, ", "))});
+  if (!assumed.empty()) list.push_back(tilt_inertia_assumed(assumed));
   // Which faces are even is known once the meshes are solved.
   auto assumptions = space_warnings(scene, 0, frame, {});
   std::erase_if(assumptions, [](const Warning& w) { return w.key == "even_faces"; });
   list.insert(list.end(), assumptions.begin(), assumptions.end());
-  return list;
-}
-
-std::shared_ptr<const FaceShape> face_in_motion(const MeshResult& mesh, double mesh_force, const RunOptions& options) {
-  const auto solid = solid_face(mesh, options);
-  if (!solid) return nullptr;
-  constexpr int phases = 16;
-  const double normal = mesh_force / std::cos(mesh.model.problem->pair.pinion().base_helix_angle());
-  const auto id = identity_of(mesh.model.id(), mesh.fact("level"), mesh.fact("degree"), normal, phases);
-  try {
-    const auto [shape, reused] = cached_value(
-        options.store.get(), "faces", id, [&] { return fem::reduced_face(*solid, normal, phases, options.threads); });
-    note_reuse(options, fmt::format("face of the {} mesh", mesh.model.mesh), reused);
-    return std::make_shared<const FaceShape>(shape);
-  } catch (const SolverError& error) {  // the face is then even, which face_warnings() says
-    log::info(fmt::format("{} mesh: {}", mesh.model.mesh, error.what()));
-    return nullptr;
-  }
-}
-
-std::vector<Warning> face_warnings(const MeshResult& sun_mesh, const MeshResult& ring_mesh, double accuracy,
-                                   const std::string& ring) {
-  std::vector<Warning> list;
-  const auto even = [](const MeshResult& mesh) { return mesh.model.computed() && !mesh.face; };
-  if (even(sun_mesh) || even(ring_mesh)) list.push_back(even_faces_warning(ring));
-  for (const auto& [mesh, name] : {std::pair{&sun_mesh, "sun"}, {&ring_mesh, "ring"}})
-    if (mesh->face && mesh->face->error_relative > accuracy)
-      list.push_back(
-          {"face_reduced", Severity::warning,
-           fmt::format("the dynamics has the {} mesh along its face as straight about its load. Where one end "
-                       "of the face approaches by half as much again as the middle, force and moment (over "
-                       "half the face width) deviate by {:.2g} % of the force from those of the solid gears",
-                       name, 100 * mesh->face->error_relative),
-           ring});
   return list;
 }
 

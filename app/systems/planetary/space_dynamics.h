@@ -24,14 +24,6 @@ namespace annulus::app {
 void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                   const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 
-/// A solved mesh as solid gears along their face; null where it has no solid gears. `mesh_force`: N, in the transverse
-/// section.
-[[nodiscard]] std::shared_ptr<const FaceShape> face_in_motion(const MeshResult& mesh, double mesh_force,
-                                                              const RunOptions& options);
-/// How well the faces of a stage in space are known.
-[[nodiscard]] std::vector<Warning> face_warnings(const MeshResult& sun_mesh, const MeshResult& ring_mesh,
-                                                 double accuracy, const std::string& ring);
-
 /// What the dynamics assumes and leaves out of these tables.
 [[nodiscard]] std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeometry& geometry);
 

@@ -9,6 +9,7 @@
 
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/space_stage.h"
+#include "app/systems/shared/bearing_words.h"
 
 namespace annulus::app {
 
@@ -16,35 +17,6 @@ namespace {
 
 using dynamics::StageBearing;
 using Body = dynamics::StageBody::Kind;
-
-/// What the bearings of a body do in one direction.
-struct Hold {
-  std::vector<std::string> stiff{}, elastic{};
-
-  [[nodiscard]] DofPlan plan(const std::string& dof) const {
-    if (!stiff.empty()) return {dof, false, fmt::format("rigid bearing {}: dropped", fmt::join(stiff, ", "))};
-    if (elastic.empty()) return {dof, true, "no bearing holds it: the teeth do"};
-    return {dof, true, fmt::format("bearing {}", fmt::join(elastic, ", "))};
-  }
-};
-
-/// `stiffness`: N/m or N m/rad in this direction, of a bearing; infinite, or 0 for none.
-Hold hold(const std::vector<StageBearing>& bearings, const std::function<double(const StageBearing&)>& stiffness) {
-  Hold result;
-  for (const auto& b : bearings) {
-    const double k = stiffness(b);
-    if (k > 0) (k == rigid ? result.stiff : result.elastic).push_back("'" + b.name + "'");
-  }
-  return result;
-}
-
-constexpr double some = 1;  ///< a stiffness that follows from contacts or a table
-
-double radial(const StageBearing& b) { return b.matrix || b.row || !b.distance.empty() ? some : std::max(b.x, b.y); }
-double axial(const StageBearing& b) {
-  const bool of_row = b.row && (b.row->contact_angle != 0 || b.row->element == dynamics::RollingRow::Element::ball);
-  return b.matrix || of_row ? some : b.axial;
-}
 
 bool in_housing(const dynamics::SpatialStage& stage, Body kind) {
   return stage.housing && std::any_of(stage.housing->bearings.begin(), stage.housing->bearings.end(),
@@ -80,24 +52,17 @@ std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geome
       return dof;
     };
     if (stage.has_radial_bearings({kind}))
-      list.push_back(in_series(hold(bearings, radial).plan(name + " x, y")));
+      list.push_back(in_series(radial_dof(name, bearings)));
     else
       of_plane(name == planets ? "planet" : name + " x, y");
     if (!leaves_plane) {
-      list.push_back({name + " z, tilts", false, "nothing moves it out of the plane: dropped"});
+      list.push_back(no_dof_out_of_plane(name));
     } else if (bearings.empty()) {
       list.push_back(in_series({name + " z, tilts", false,
                                 "no [[bearing]] holds it: it is assumed neither to move along the axis nor to tilt"}));
     } else {
-      list.push_back(in_series(hold(bearings, axial).plan(name + " z")));
-      const auto stiff =
-          std::count_if(bearings.begin(), bearings.end(), [](const auto& b) { return radial(b) == rigid; });
-      const auto places = std::count_if(bearings.begin(), bearings.end(), [](const auto& b) { return radial(b) > 0; });
-      auto tilts = hold(bearings, [&](const StageBearing& b) {
-        if (b.tilt == rigid || (stiff > 1 && radial(b) == rigid)) return rigid;
-        return std::max(b.tilt, b.matrix || b.row || places > 1 ? radial(b) : 0.0);
-      });
-      list.push_back(in_series(tilts.plan(name + " tilts")));
+      list.push_back(in_series(axial_dof(name, bearings)));
+      list.push_back(in_series(tilt_dof(name, bearings)));
     }
     if (kind == Body::ring && stage.housing && stage.housing->ring_bearing)
       list.push_back({"ring u", true, "the housing gives way"});

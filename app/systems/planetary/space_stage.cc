@@ -12,9 +12,10 @@
 #include "app/model/excitation.h"
 #include "app/systems/planetary/carrier_pins.h"
 #include "app/systems/planetary/rim_coupling.h"
-#include "app/systems/shared/space_input.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/stage_supports.h"
+#include "app/systems/shared/faces.h"
+#include "app/systems/shared/space_input.h"
 #include "core/errors.h"
 #include "core/units.h"
 #include "dynamics/spatial/even_face.h"
@@ -28,10 +29,6 @@ namespace {
 using dynamics::StageBody;
 using dynamics::StageFace;
 using Body = StageBody::Kind;
-
-Eigen::Vector3d vector_of(const std::vector<double>& list) {
-  return list.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(list[0], list[1], list[2]);
-}
 
 /// Every planet where none is named.
 std::vector<StageBody> bodies_of(const Scene& scene, Body kind, const std::optional<int>& planet) {
@@ -51,29 +48,8 @@ std::string name_of(const std::string& name, const StageBody& body, bool of_all)
 void add_bearings(const Scene& scene, dynamics::SpatialStage& stage) {
   for (const auto& input : scene.own<SpaceInput>().bearings)
     for (const auto& body : bodies_of(scene, input.body, input.planet)) {
-      dynamics::StageBearing b;
-      const bool planet = body.kind == Body::planet;
-      b.name = name_of(input.name, body, planet && !input.planet);
-      b.body = body;
-      b.on = {input.on.value_or(planet ? Body::carrier : Body::housing)};
-      b.frame = planet ? dynamics::StageFrame::planet : input.frame;
-      b.place = input.place;
-      b.x = input.x.value_or(input.radial.value_or(0));
-      b.y = input.y.value_or(input.radial.value_or(0));
-      b.axial = input.axial;
-      b.tilt = input.tilt;
-      b.play = input.clearance / 2;
-      b.load_zone = input.load_zone;
-      b.axial_play = input.axial_clearance / 2;
-      b.distance = input.displacement;
-      b.force = input.force;
-      if (input.rolls()) {
-        b.row = rolling_row(input);
-        b.play = 0;
-      }
-      if (!input.matrix.empty())
-        b.matrix = Eigen::Map<const Eigen::Matrix<double, 5, 5, Eigen::RowMajor>>(input.matrix.data());
-      stage.bearings.push_back(std::move(b));
+      const bool of_all = body.kind == Body::planet && !input.planet;
+      stage.bearings.push_back(stage_bearing(input, body, name_of(input.name, body, of_all)));
     }
 }
 
@@ -96,15 +72,12 @@ void add_loads(const Scene& scene, std::size_t ring, dynamics::SpatialStage& sta
   const auto& space = scene.own<SpaceInput>();
   for (const auto& input : space.loads)
     for (const auto& body : bodies_of(scene, input.body, input.planet)) {
-      const bool planet = body.kind == Body::planet;
-      stage.loads.push_back({name_of(input.name, body, planet && !input.planet), body, input.frame,
-                             vector_of(input.point), vector_of(input.force), vector_of(input.moment)});
+      const bool of_all = body.kind == Body::planet && !input.planet;
+      stage.loads.push_back(stage_load(input, body, name_of(input.name, body, of_all)));
     }
   if (!space.gravity) return;
   const auto& g = *space.gravity;
-  const double in_plane = g.acceleration * std::cos(g.inclination);
-  stage.gravity = {in_plane * std::cos(g.direction), in_plane * std::sin(g.direction),
-                   g.acceleration * std::sin(g.inclination)};
+  stage.gravity = g.vector();
   stage.weights = {{{Body::sun}, *scene.sun.mass, g.sun},
                    {{Body::ring}, *scene.rings.at(ring).mass, g.ring},
                    {{Body::carrier}, *scene.carrier.mass, g.carrier}};
@@ -160,33 +133,6 @@ double unloaded_error(const dynamics::MeshExcitation& excitation, double phase) 
   const auto* table = std::get_if<dynamics::TableStiffness>(&excitation);
   return table ? table->unloaded_te(phase - table->phase_shift) : 0.0;
 }
-
-/// Lead modifications and misalignment, m, at places on the common face from its middle.
-std::vector<double> gaps_along(const geometry::GearPair& pair, double misalignment,
-                               const std::vector<double>& stations) {
-  const auto face = pair.common_face();
-  const geometry::ToothProfile pinion(pair.pinion()), wheel(pair.wheel());
-  std::vector<double> gaps;
-  for (const double z : stations) {
-    const double from_low = z + face.width / 2;
-    gaps.push_back(pinion.lead_modification(from_low + face.pinion.below) +
-                   wheel.lead_modification(from_low + face.wheel.below) + misalignment * z / face.width);
-  }
-  return gaps;
-}
-
-constexpr double place_rounding = 1e-9;  // of widths and offsets in millimetres
-
-/// m, z of the middle of the common face.
-double place_of_face(const geometry::GearPair& pair) {
-  const auto common = pair.common_face();
-  const auto& p = pair.pinion().parameters();
-  const double middle = p.axial_offset - p.face_width / 2 + common.pinion.below + common.width / 2;
-  return std::abs(middle) < place_rounding * common.width ? 0 : middle;
-}
-
-/// A computed table has its modifications and misalignment in its stiffness.
-bool gaps_in_table(const MeshInput& input) { return input.stiffness == StiffnessShape::computed; }
 
 /// A face without its law.
 StageFace bare_face(const Scene& scene, const geometry::GearPair& pair, const MeshInput& input, double misalignment) {
@@ -256,42 +202,6 @@ dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geo
   return stage;
 }
 
-dynamics::SpreadFace motion_face(const geometry::GearPair& pair, const MeshInput& input, const MeshResult& mesh,
-                                 double misalignment) {
-  const double c = std::cos(pair.pinion().base_helix_angle());
-  dynamics::SpreadFace face;
-  face.width = pair.common_face().width;
-  face.middle = place_of_face(pair);
-  if (mesh.face) {
-    // Of the transverse section.
-    const auto transverse = [c](FaceShape shape) {
-      for (double& gap : shape.gap_slope) gap /= c;
-      return shape;
-    };
-    auto shape = transverse(*mesh.face);
-    if (shape.tilted) shape.tilted = std::make_shared<const FaceShape>(transverse(*shape.tilted));
-    face.shape = std::make_shared<const FaceShape>(std::move(shape));
-  }
-  if (gaps_in_table(input)) return face;
-  std::vector<double> places;
-  for (const auto& place : dynamics::face_places()) places.push_back(place.z * face.width / 2);
-  face.gap = gaps_along(pair, misalignment, places);
-  // Of the transverse section.
-  for (double& gap : face.gap) gap /= c;
-  return face;
-}
-
-std::shared_ptr<const fem::SolidFace> solid_face(const MeshResult& mesh, const RunOptions& options, int coarser) {
-  if (!mesh.model.computed()) return nullptr;
-  auto settings = mesh.model.settings;
-  if (!fem::why_no_solid_face(*mesh.model.problem, settings.fidelity).empty()) return nullptr;
-  settings.degree = static_cast<int>(mesh.fact("degree"));
-  settings.threads = options.threads;
-  settings.store = options.store;
-  const int level = static_cast<int>(mesh.fact("level"));
-  return std::make_shared<fem::SolidFace>(*mesh.model.problem, settings, std::max(0, level - coarser));
-}
-
 bool varies_in_cycle(const MeshInput& mesh) { return mesh.stiffness != StiffnessShape::constant; }
 
 dynamics::SpatialStage make_spatial_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
@@ -320,16 +230,6 @@ dynamics::SpatialStage make_spatial_stage(const Scene& scene, const GearGeometry
   set_law(stage.ring_face, set.ring_mesh(), scene.ring_planet, plane.ring_mesh, scene.errors.ring_planet_misalignment,
           faces.ring_factor, stretches, faces.ring, force);
   return stage;
-}
-
-Warning even_faces_warning(const std::string& ring) {
-  return {"even_faces", Severity::warning,
-          "a computed mesh stiffness is spread evenly over the face: every part of it gives way by itself. Real teeth "
-          "support the loaded part from beside it, so that K_Hβ is overestimated where bodies tilt. Lead modifications "
-          "and misalignment act in the stiffness alone, not in the load along the face. The error bar of K_Hβ contains "
-          "neither. Solid models of rings that stand on no single supports, with planets on hubs, need no such "
-          "assumption",
-          ring};
 }
 
 std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const dynamics::SpatialStage& stage,

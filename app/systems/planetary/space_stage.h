@@ -31,18 +31,9 @@ struct StageFaces {
 /// The same without its meshes, before they are solved.
 [[nodiscard]] dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geometry, std::size_t ring);
 
-/// The face of a mesh in the dynamics, with what its flanks are apart along it.
-[[nodiscard]] dynamics::SpreadFace motion_face(const geometry::GearPair& pair, const MeshInput& input,
-                                               const MeshResult& mesh, double misalignment);
-
-/// A computed mesh as solid gears along their face, at the level of its table less `coarser`; null where there is none.
-[[nodiscard]] std::shared_ptr<const fem::SolidFace> solid_face(const MeshResult& mesh, const RunOptions& options,
-                                                               int coarser = 0);
-
 /// Whether the stiffness of a mesh changes within a mesh cycle.
 [[nodiscard]] bool varies_in_cycle(const MeshInput& mesh);
 
-[[nodiscard]] Warning even_faces_warning(const std::string& ring);
 /// What the stage leaves out, and what is assumed because the scene does not say.
 [[nodiscard]] std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring,
                                                   const dynamics::SpatialStage& stage, const StageFaces& faces);

@@ -3,6 +3,7 @@
 #include "app/model/dynamics_members.h"
 #include "app/systems/planetary/coupling_effect.h"
 #include "app/systems/planetary/stage_response.h"
+#include "app/systems/shared/space_members.h"
 #include "dynamics/systems/planetary/sharing_tolerances.h"
 
 /// A planetary stage and what is cached of its responses (core/bytes.h).
@@ -13,16 +14,15 @@ ANNULUS_MEMBERS(dynamics::BodyErrors, eccentricity, position);
 ANNULUS_MEMBERS(dynamics::CentralBody, mass, inertia, radius, support, torsional_support, errors);
 ANNULUS_MEMBERS(dynamics::PlanetBody, mass, inertia, radius);
 ANNULUS_MEMBERS(dynamics::PlanetBearing, radial, tangential, play, pin);
-ANNULUS_MEMBERS(dynamics::StageBody, kind, planet);
-ANNULUS_MEMBERS(dynamics::LinearBearing, name, body, on, place, stiffness, rigid, preload, standing);
-ANNULUS_MEMBERS(dynamics::LinearCoupling, name, bearings, stiffness, turns_ring, ring_preload);
-ANNULUS_MEMBERS(dynamics::SpaceLoad, body, load);
-ANNULUS_MEMBERS(dynamics::StandingLoad, body, cosine, sine);
-ANNULUS_MEMBERS(FaceShape, slope, curvature, gap_slope, error_relative, tilted);
-ANNULUS_MEMBERS(dynamics::SpreadFace, width, middle, gap, shape);
 ANNULUS_MEMBERS(dynamics::StageSpace::TiltInertia, sun, ring, carrier, planet);
-ANNULUS_MEMBERS(dynamics::StageSpace, base_helix_angle, working_radius_sun, working_radius_ring, sun_face, ring_face,
-                tilt_inertia, bearings, couplings, loads, standing_loads);
+template <>
+struct Members<dynamics::StageSpace> {
+  template <class Space>
+  static auto of(Space& s) {
+    return std::tie(static_cast<dynamics::SpaceSupports&>(s), s.base_helix_angle, s.planet_working_radius_sun,
+                    s.planet_working_radius_ring, s.sun_face, s.ring_face, s.tilt_inertia);
+  }
+};
 ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bearings, planet_angles, planet_errors,
                 sun_tooth_errors, ring_tooth_errors, sun_working_angle, ring_working_angle, sun_teeth, planet_teeth,
                 ring_teeth, sun_mesh, ring_mesh, sun_phase_lag, ring_phase_lag, ring_tooth_offset, ring_coupling,
@@ -57,10 +57,11 @@ ANNULUS_MEMBERS(app::StageModes::Mode, frequency, frequency_error, error_parts, 
                 strain, kinetic);
 ANNULUS_MEMBERS(app::StageModes, groups, bodies, list, shapes, campbell, critical_speeds);
 ANNULUS_MEMBERS(app::StageMotion, pin_force_max, pin_force_mean, load_zone, sun_support, ring_support, carrier_support,
-                bearings, meshes, held_torque, orbit_extent, orbit_largest, section, section_period, section_clusters,
-                bearing_forces, space, sun_orbit, poincare);
-ANNULUS_MEMBERS(app::StageMotion::Bearing, name, radial_mean, radial_max, axial_mean, axial_max, moment_max);
-ANNULUS_MEMBERS(app::StageMotion::Mesh, name, place_mean, place_min, place_max);
+                held_torque, orbit_extent, orbit_largest, section, section_period, section_clusters, bearing_forces,
+                space, sun_orbit, poincare);
+ANNULUS_MEMBERS(app::SpaceResults::Bearing, name, radial_mean, radial_max, axial_mean, axial_max, moment_max);
+ANNULUS_MEMBERS(app::SpaceResults::Mesh, name, place_mean, place_min, place_max);
+ANNULUS_MEMBERS(app::SpaceResults, bearings, meshes, table);
 ANNULUS_MEMBERS(app::StageResponse, figures, errors, modes, motion, load_sharing, force_factors, waveform,
                 sharing_waveform, spectrum, time_series, reused);
 ANNULUS_MEMBERS(app::CouplingEffect::Row, model, averaged, instantaneous, quasi_static, sun_factor, ring_factor);

@@ -67,48 +67,6 @@ void add_bearings(StageMotion& motion, const dynamics::StageMotion& found, const
   motion.held_torque_mean = reaction.torque.mean();
 }
 
-/// Of those that are known.
-std::pair<double, double> known_range(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  std::pair<double, double> range{not_known, not_known};
-  for (const double value : values) {
-    if (std::isnan(value)) continue;
-    range.first = std::isnan(range.first) ? value : std::min(range.first, value);
-    range.second = std::isnan(range.second) ? value : std::max(range.second, value);
-  }
-  return range;
-}
-
-double mean_of(const Eigen::VectorXd& values) { return values.size() == 0 ? not_known : values.mean(); }
-
-void add_space(StageMotion& motion, const dynamics::SpaceMotion& found, int cycles) {
-  if (found.bearings.empty()) return;
-  auto& csv = motion.space;
-  csv.columns = {"mesh_cycle"};
-  for (int c = 0; c < cycles; ++c) csv.rows.emplace_back(1, c);
-  for (const auto& bearing : found.bearings) {
-    const auto& name = bearing.name;
-    const Eigen::VectorXd radial = bearing.force.topRows<2>().colwise().norm().transpose();
-    const Eigen::VectorXd axial = bearing.force.row(2).transpose();
-    const Eigen::VectorXd moment = bearing.force.bottomRows<2>().colwise().norm().transpose();
-    motion.bearings.push_back(
-        {name, mean_of(radial), radial.maxCoeff(), mean_of(axial), axial.cwiseAbs().maxCoeff(), moment.maxCoeff()});
-    const auto in_cycles = [&](const Eigen::VectorXd& values) { return dynamics::over_cycles(values, cycles); };
-    add_column(csv, name + "_radial_max_N", in_cycles(radial).largest);
-    add_column(csv, name + "_axial_mean_N", in_cycles(axial).mean);
-    add_column(csv, name + "_moment_max_N_m", in_cycles(moment).largest);
-  }
-  for (const auto& mesh : found.meshes) {
-    const Eigen::Index samples = mesh.place.size() / cycles;
-    Eigen::VectorXd smallest(cycles), largest(cycles);
-    for (int c = 0; c < cycles; ++c)
-      std::tie(smallest[c], largest[c]) = known_range(mesh.place.segment(c * samples, samples));
-    const auto [low, high] = known_range(mesh.place);
-    motion.meshes.push_back({mesh.name, mesh.mean_place, low, high});
-    add_column(csv, mesh.name + "_place_min_m", smallest);
-    add_column(csv, mesh.name + "_place_max_m", largest);
-  }
-}
-
 }  // namespace
 
 int written_stride(int window_cycles) { return window_cycles > dynamics::long_window ? 3 : 1; }
@@ -117,7 +75,7 @@ StageMotion tabulated_motion(const dynamics::PlanetaryStage& stage, const dynami
   const auto found = dynamics::stage_motion(stage, response);
   StageMotion motion;
   add_bearings(motion, found, stage, response.window_cycles);
-  add_space(motion, dynamics::space_motion(stage, response.series), response.window_cycles);
+  motion.space = space_results(dynamics::space_motion(stage, response.series), response.window_cycles);
   const auto& path = found.sun_orbit;
   motion.sun_orbit_extent = path.extent;
   motion.sun_orbit_largest = path.largest;

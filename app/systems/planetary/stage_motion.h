@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/systems/shared/space_results.h"
 #include "core/csv.h"
 #include "core/not_known.h"
 #include "dynamics/systems/planetary/response.h"
@@ -16,19 +17,6 @@ struct StageMotion {
   std::vector<double> pin_force_mean_tangential;  ///< N
   double load_zone_min = not_known;               ///< rad, smallest of a planet bearing with clearance
   double sun_support_max = not_known, ring_support_max = not_known, carrier_support_max = not_known;  ///< N, resultant
-  /// Of a stage in space: bearings, largest and mean forces (N) and moments (N m); not known where rigid.
-  struct Bearing {
-    std::string name;
-    double radial_mean = not_known, radial_max = not_known, axial_mean = not_known, axial_max = not_known;
-    double moment_max = not_known;
-  };
-  std::vector<Bearing> bearings;
-  /// Of a stage in space: place of the mesh force along the face, m from its middle.
-  struct Mesh {
-    std::string name;
-    double place_mean = not_known, place_min = not_known, place_max = not_known;
-  };
-  std::vector<Mesh> meshes;
   double held_torque_mean = not_known;   ///< N m, on the housing
   double sun_orbit_extent = not_known;   ///< m, largest distance from the mean position, carrier frame
   double sun_orbit_largest = not_known;  ///< m, largest distance from the axis
@@ -36,7 +24,7 @@ struct StageMotion {
   std::optional<int> section_period;     ///< mesh cycles
   int section_clusters = 0;              ///< distinct points of the Poincaré section
   Csv bearing_forces;                    ///< per mesh cycle
-  Csv space;                             ///< of a stage in space, per mesh cycle: bearings and places of mesh forces
+  SpaceResults space;                    ///< of a stage in space
   Csv sun_orbit;                         ///< over time
   Csv poincare;                          ///< once per mesh cycle
 };

@@ -96,7 +96,7 @@ void for_each_stage_table(Response& r, Visit visit) {
   visit("load_sharing_waveform.csv", r.sharing_waveform);
   visit("spectrum.csv", r.spectrum);
   visit("bearing_forces.csv", r.motion.bearing_forces);
-  visit("bearings_in_space.csv", r.motion.space);
+  visit("bearings_in_space.csv", r.motion.space.table);
   visit("sun_orbit.csv", r.motion.sun_orbit);
   visit("poincare.csv", r.motion.poincare);
   visit("mode_shapes.csv", r.modes.shapes);

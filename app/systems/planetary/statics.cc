@@ -10,8 +10,9 @@
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/rim_coupling.h"
-#include "app/systems/shared/space_input.h"
 #include "app/systems/planetary/space_stage.h"
+#include "app/systems/shared/faces.h"
+#include "app/systems/shared/space_input.h"
 #include "core/errors.h"
 #include "core/units.h"
 

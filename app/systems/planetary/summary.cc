@@ -142,16 +142,7 @@ Json ring_json(const RunResult& result, std::size_t number) {
                             {"ring_support_max_N", json_number(m.ring_support_max)},
                             {"carrier_support_max_N", json_number(m.carrier_support_max)},
                             {"held_torque_mean_N_m", json_number(m.held_torque_mean)}};
-  for (const auto& b : m.bearings)
-    json["bearings_in_space"][b.name] = {{"radial_mean_N", json_number(b.radial_mean)},
-                                         {"radial_max_N", json_number(b.radial_max)},
-                                         {"axial_mean_N", json_number(b.axial_mean)},
-                                         {"axial_max_N", json_number(b.axial_max)},
-                                         {"moment_max_N_m", json_number(b.moment_max)}};
-  for (const auto& mesh : m.meshes)
-    json["places_of_mesh_forces"][mesh.name] = {{"mean_m", json_number(mesh.place_mean)},
-                                                {"min_m", json_number(mesh.place_min)},
-                                                {"max_m", json_number(mesh.place_max)}};
+  add_json(json, m.space);
   json["sun_orbit"] = {{"extent_m", json_number(m.sun_orbit_extent)}, {"largest_m", json_number(m.sun_orbit_largest)}};
   json["poincare"] = {{"section", m.section},
                       {"period_cycles", m.section_period ? Json(*m.section_period) : Json(nullptr)},

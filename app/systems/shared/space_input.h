@@ -7,7 +7,7 @@
 
 #include "app/systems/shared/point_stiffness.h"
 #include "dynamics/spatial/carrier_structure.h"
-#include "dynamics/systems/planetary/spatial_stage.h"
+#include "dynamics/spatial/stage_bearing.h"
 
 namespace annulus::app {
 
@@ -46,13 +46,17 @@ struct LoadInput {
   std::vector<double> point, force, moment;  ///< three values, or none
 };
 
+[[nodiscard]] dynamics::RollingRow rolling_row(const BearingInput& bearing);
+[[nodiscard]] dynamics::StageBearing stage_bearing(const BearingInput& input, const dynamics::StageBody& body,
+                                                   std::string name);
+[[nodiscard]] dynamics::StageLoad stage_load(const LoadInput& input, const dynamics::StageBody& body, std::string name);
+
 struct GravityInput {
   double acceleration = 0, direction = 0, inclination = 0;
   /// m, centres of mass on the axes.
   double sun = 0, planet = 0, ring = 0, carrier = 0, pinion = 0, wheel = 0;
+  [[nodiscard]] Eigen::Vector3d vector() const;  ///< m/s^2, in the housing
 };
-
-[[nodiscard]] dynamics::RollingRow rolling_row(const BearingInput& bearing);
 
 /// The name of a bearing in columns and files.
 [[nodiscard]] inline std::string column_of(std::string bearing) {

@@ -39,7 +39,8 @@ std::vector<Choice<Body>> bodies(SpaceOf of) {
 template <class Section, class Value>
 std::vector<std::pair<const char*, Value Section::*>> members(SpaceOf of) {
   if (of == SpaceOf::pair) return {{"pinion", &Section::pinion}, {"wheel", &Section::wheel}};
-  return {{"sun", &Section::sun}, {"planet", &Section::planet}, {"ring", &Section::ring}, {"carrier", &Section::carrier}};
+  return {
+      {"sun", &Section::sun}, {"planet", &Section::planet}, {"ring", &Section::ring}, {"carrier", &Section::carrier}};
 }
 
 template <class Section>
@@ -70,7 +71,7 @@ Table bearing_table(SpaceOf of) {
   bearing.key("name", &BearingInput::name, "Name in results.").required();
   declare_body(bearing, of, "The body that it holds.");
   if (of == SpaceOf::planetary)
-  bearing
+    bearing
         .choice("on", &BearingInput::on,
                 {{"housing", Body::housing}, {"carrier", Body::carrier}, {"sun", Body::sun}, {"ring", Body::ring}},
                 "The body on which it stands.")
@@ -93,7 +94,8 @@ Table bearing_table(SpaceOf of) {
       .absent("none");
   for (const auto& [name, member, meaning] :
        {std::tuple{"x_N_per_m", &BearingInput::x,
-                   "Stiffness along x: towards planet 1 at time 0; of planets radially outwards; of a pair from the pinion to the wheel."},
+                   "Stiffness along x: towards planet 1 at time 0; of planets radially outwards; of a pair from the "
+                   "pinion to the wheel."},
         {"y_N_per_m", &BearingInput::y, "Stiffness along y; of planets tangentially."}})
     stiffness(name, member, meaning)
         .refused_if(has_matrix, why_matrix)
@@ -383,8 +385,7 @@ class SpaceChecks : KeyChecks {
       if (!list->empty() && list->size() != 3 && usable(key, i))
         problem(key, i, fmt::format("needs three values, x, y and z, not {}", list->size()));
     if (l.moment.size() == 3 && l.moment[2] != 0 && usable("load.moment_Nm", i))
-      problem("load.moment_Nm", i,
-              "has a part about z: that is a torque, which [stage] gives; use 0");
+      problem("load.moment_Nm", i, "has a part about z: that is a torque, which [stage] gives; use 0");
     if (l.force.size() == 3 && l.point.size() == 3 && l.body != Body::planet && usable("load.force_N", i) &&
         usable("load.at_mm", i) && twists(l.point, l.force))
       problem("load.at_mm", i,
@@ -398,22 +399,6 @@ class SpaceChecks : KeyChecks {
 };
 
 }  // namespace
-
-dynamics::RollingRow rolling_row(const BearingInput& input) {
-  using Row = dynamics::RollingRow;
-  Row row;
-  row.element = input.balls ? Row::Element::ball : Row::Element::roller;
-  row.count = input.balls ? *input.balls : *input.rollers;
-  row.diameter = input.balls ? *input.ball_diameter : *input.roller_diameter;
-  row.length = input.roller_length.value_or(0);
-  row.pitch_diameter = input.pitch_diameter.value_or(0);
-  row.contact_angle = input.contact_angle;
-  row.clearance = input.clearance;
-  row.inner_groove = input.inner_groove;
-  row.outer_groove = input.outer_groove;
-  row.ring = input.ring.value_or(input.body == Body::planet ? Row::Ring::outer : Row::Ring::inner);
-  return row;
-}
 
 std::vector<Table> space_tables(SpaceOf of) {
   return {bearing_table(of), load_table(of), gravity_table(of), tilt_inertia_table(of)};

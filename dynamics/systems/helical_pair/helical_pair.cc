@@ -60,16 +60,22 @@ struct PairInSpace {
   LinearForm approach, tilt;  ///< of the mesh, normal, beside that of the plane
 };
 
-PairInSpace add_in_space(LumpedSystemBuilder& builder, const HelicalPair& pair) {
+/// Pinion, wheel.
+std::vector<BodyForms> add_bodies(LumpedSystemBuilder& builder, const HelicalPair& pair) {
   const auto& space = *pair.space;
   const auto body = [](StageBody::Kind kind, const PairGear& gear, double tilting, double spin) {
     return SpaceBody{{kind}, gear.mass, gear.inertia, gear.radius, tilting, spin, 0};
   };
-  const auto forms = add_space_bodies(
-      builder, space,
-      {body(StageBody::Kind::pinion, pair.pinion, space.tilt_inertia_pinion, pair.pinion_speed),
-       body(StageBody::Kind::wheel, pair.wheel, space.tilt_inertia_wheel, -pair.wheel_speed())},
-      {0, 0, pair.bearing_damping_ratio}, [](const auto&, const auto&, const auto&) { return seat_in_housing(); });
+  return add_space_bodies(builder, space,
+                          {body(StageBody::Kind::pinion, pair.pinion, space.tilt_inertia_pinion, pair.pinion_speed),
+                           body(StageBody::Kind::wheel, pair.wheel, space.tilt_inertia_wheel, -pair.wheel_speed())},
+                          {0, 0, pair.bearing_damping_ratio},
+                          [](const auto&, const auto&, const auto&) { return seat_in_housing(); });
+}
+
+PairInSpace add_in_space(LumpedSystemBuilder& builder, const HelicalPair& pair) {
+  const auto& space = *pair.space;
+  const auto forms = add_bodies(builder, pair);
   const auto &p = forms[0], &w = forms[1];
   const double c = std::cos(pair.base_helix_angle), s = std::sin(pair.base_helix_angle);
   const double cos_a = std::cos(space.working_angle), sin_a = std::sin(space.working_angle);
@@ -223,6 +229,17 @@ LumpedSystem assemble(const HelicalPair& pair) {
   builder.add_load(pinion.u, force);
   builder.add_load(wheel.u, force);
   return with_rotors(builder.build(), pair.rotors, pair.shaft_ends());
+}
+
+std::vector<std::vector<LinearForm>> bearing_coordinates(const HelicalPair& pair) {
+  std::vector<std::vector<LinearForm>> list;
+  if (!pair.space) return list;
+  LumpedSystemBuilder builder;
+  const auto forms = add_bodies(builder, pair);
+  for (const auto& b : pair.space->bearings)
+    list.push_back(
+        at_place(against(forms[b.body.kind == StageBody::Kind::pinion ? 0 : 1], seat_in_housing()), b.place));
+  return list;
 }
 
 Modes modes(const HelicalPair& pair) { return modes(assemble(pair)); }

@@ -111,6 +111,9 @@ struct Iso6336Mesh {
 /// what the mesh approaches at the end of the face by more than in its middle. Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const HelicalPair& pair);
 
+/// Coordinates of the bearings of a pair in space, in their places.
+[[nodiscard]] std::vector<std::vector<LinearForm>> bearing_coordinates(const HelicalPair& pair);
+
 /// Modes with the mean tangent stiffness of the mesh; the free rotation has 0 Hz.
 [[nodiscard]] Modes modes(const HelicalPair& pair);
 

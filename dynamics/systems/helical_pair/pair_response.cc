@@ -236,6 +236,14 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
   return response;
 }
 
+SpaceMotion space_motion(const HelicalPair& pair, const TimeSeries& series) {
+  if (!pair.space) return {};
+  SpaceSystem system;
+  system.bearings = bearing_coordinates(pair);
+  system.faces = {&pair.space->face};
+  return motion_in_space(*pair.space, system, series);
+}
+
 HelicalPair with_errors_alone(HelicalPair pair) {
   pair.mesh = ConstantStiffness{mean_stiffness(pair.mesh)};
   for (auto& rotor : pair.rotors) rotor.ripples.clear();

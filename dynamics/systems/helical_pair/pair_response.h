@@ -5,6 +5,7 @@
 
 #include "core/figure.h"
 #include "dynamics/figures/shaft_results.h"
+#include "dynamics/spatial/space_motion.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "dynamics/systems/helical_pair/helical_pair.h"
 
@@ -64,6 +65,9 @@ struct PairResponse : SteadyOutcome {
 [[nodiscard]] PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& options = {});
 /// The system that it solves. Throws InputError without speed, or without torques and errors.
 [[nodiscard]] LumpedCase lumped_case(const HelicalPair& pair);
+
+/// What bearings and the mesh of a pair in space do over time; empty of others. `series` must belong to the pair.
+[[nodiscard]] SpaceMotion space_motion(const HelicalPair& pair, const TimeSeries& series);
 
 /// The pair with a single cause of vibration: its errors at constant mean stiffness, or its stiffness without
 /// manufacturing errors (the unloaded error of a table stays); both without ripples of the rotors.

@@ -62,6 +62,7 @@ Section pair_motion_section(const PairRunResult& result) {
                             phrase("The first mesh cycles of the evaluated window at the operating point. The whole "
                                    "window of {} mesh cycles: {}.",
                                    f.window_cycles, code("dynamics/time_series.csv"))};
+  section.blocks += space_blocks(result.response->space, "");
   return section;
 }
 

@@ -51,26 +51,8 @@ PageTable motion_table(const RunResult& result) {
 /// Of stages in space: bearings, and where the meshes carry along the face.
 Blocks space_tables(const RunResult& result) {
   Blocks blocks;
-  const auto number = [](double scale, double value) { return Text(to_text(scale * value, 4)); };
-  for (const auto& [name, response] : responses_of(result)) {
-    const auto& m = response->motion;
-    if (m.bearings.empty()) continue;
-    PageTable bearings{.head = {fmt::format("bearings of '{}'", name), "radial force, mean, kN", "largest",
-                                "axial force, mean, kN", "largest", "moment, largest, N m"}};
-    for (const auto& b : m.bearings)
-      bearings.rows.push_back({b.name, number(1e-3, b.radial_mean), number(1e-3, b.radial_max),
-                               number(1e-3, b.axial_mean), number(1e-3, b.axial_max), number(1, b.moment_max)});
-    PageTable places{.head = {fmt::format("mesh force along the face, '{}'", name), "mean place, mm", "from", "to"}};
-    for (const auto& mesh : m.meshes)
-      places.rows.push_back(
-          {mesh.name, number(1e3, mesh.place_mean), number(1e3, mesh.place_min), number(1e3, mesh.place_max)});
-    blocks += heading("Bearings and faces in space") + Blocks(bearings) +
-              paragraph(
-                  "Without the dampers of the bearings. Forces in rigid coordinates are not known. Places count "
-                  "from the middle of the common face. A force that moves along the face loads the bearings at "
-                  "the mesh frequency even where its amount is constant (shuttling).") +
-              places;
-  }
+  for (const auto& [name, response] : responses_of(result))
+    blocks += space_blocks(response->motion.space, fmt::format(" of '{}'", name));
   return blocks;
 }
 

@@ -1,0 +1,150 @@
+#include "app/systems/helical_pair/pair_space.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "app/plan/gear_geometry.h"
+#include "app/scene/input_place.h"
+#include "app/systems/shared/bearing_words.h"
+#include "app/systems/shared/faces.h"
+#include "app/systems/shared/space_input.h"
+#include "core/errors.h"
+#include "dynamics/systems/helical_pair/spatial_pair.h"
+
+namespace annulus::app {
+
+namespace {
+
+using Body = dynamics::StageBody::Kind;
+
+bool has_bearing(const Scene& scene, Body body, bool radial) {
+  const auto& bearings = scene.own<SpaceInput>().bearings;
+  return std::any_of(bearings.begin(), bearings.end(),
+                     [&](const auto& b) { return b.body == body && (!radial || b.holds_radially()); });
+}
+
+/// The pair without its face and its stiffness.
+dynamics::SpatialPair spatial_pair(const Scene& scene, const PairGeometry& geometry) {
+  const auto& space = scene.own<SpaceInput>();
+  const double angle = geometry.gears.working_pressure_angle();
+  dynamics::SpatialPair pair;
+  pair.base_helix_angle = std::copysign(geometry.base_helix_angle, scene.stage.helix_angle);
+  pair.working_angle = angle;
+  pair.base_radius_pinion = geometry.pinion().base_radius();
+  pair.working_radius_pinion = geometry.pinion().base_radius() / std::cos(angle);
+  pair.working_radius_wheel = geometry.wheel().base_radius() / std::cos(angle);
+  pair.pinion_torque = scene.stage.pinion_torque;
+  for (const auto& input : space.bearings) pair.bearings.push_back(stage_bearing(input, {input.body}, input.name));
+  // A gear without bearings has those of its table in the middle; it tilts only where others hold it.
+  for (const auto& [body, gear] : {std::pair{Body::pinion, &scene.pinion}, {Body::wheel, &scene.wheel}}) {
+    if (has_bearing(scene, body, true)) continue;
+    const bool any = has_bearing(scene, body, false);
+    dynamics::StageBearing support;
+    support.name = "support";
+    support.body = {body};
+    support.x = support.y = gear->bearing_transverse;
+    support.axial = any ? 0 : gear->bearing_axial;
+    support.tilt = any ? 0 : rigid;
+    pair.bearings.push_back(std::move(support));
+  }
+  for (const auto& input : space.loads) pair.loads.push_back(stage_load(input, {input.body}, input.name));
+  if (space.gravity) {
+    pair.gravity = space.gravity->vector();
+    pair.weights = {{{Body::pinion}, *scene.pinion.mass, space.gravity->pinion},
+                    {{Body::wheel}, *scene.wheel.mass, space.gravity->wheel}};
+  }
+  return pair;
+}
+
+/// Across the axis: given, or that of a uniform cylinder.
+double tilt_inertia(const Scene& scene, const std::optional<double>& given, const PairGearInput& gear,
+                    const char* name) {
+  const double about_axis = *pair_inertia(scene, gear);
+  if (given && *given < about_axis / 2)
+    throw InputError(with_place(
+        scene, fmt::format("tilt_inertia.{0}_kg_m2 = {1:g}: less than half of {0}.inertia_kg_m2 = {2:g}, which no body "
+                           "has; it is that about an axis across the body's own",
+                           name, *given, about_axis)));
+  const double width = face_width_of(scene, gear);
+  return given.value_or(about_axis / 2 + *gear.mass * width * width / 12);
+}
+
+}  // namespace
+
+bool pair_in_space(const Scene& scene) { return scene.own<SpaceInput>().any(); }
+
+void put_in_space(dynamics::HelicalPair& pair, const Scene& scene, const PairGeometry& geometry,
+                  const std::shared_ptr<const FaceShape>& face) {
+  const auto& tilting = scene.own<SpaceInput>().tilt_inertia;
+  auto spatial = spatial_pair(scene, geometry);
+  spatial.stiffness = dynamics::mean_stiffness(pair.mesh);
+  spatial.face =
+      motion_face(geometry.gears, scene.pinion_wheel, face, scene.errors.pinion_wheel_misalignment, GapsAlong::normal);
+  try {
+    pair.space = dynamics::pair_about_equilibrium(spatial, tilt_inertia(scene, tilting.pinion, scene.pinion, "pinion"),
+                                                  tilt_inertia(scene, tilting.wheel, scene.wheel, "wheel"));
+  } catch (const InputError& error) {
+    throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
+  }
+}
+
+std::vector<DofPlan> pair_dofs_in_space(const Scene& scene, const PairGeometry& geometry, std::vector<DofPlan> plane) {
+  if (!pair_in_space(scene)) return plane;
+  auto pair = spatial_pair(scene, geometry);
+  pair.face = motion_face(geometry.gears, scene.pinion_wheel, nullptr, scene.errors.pinion_wheel_misalignment,
+                          GapsAlong::normal);
+  const bool leaves_plane = !pair.reasons_for_space().empty();
+  std::vector<DofPlan> list;
+  for (const auto& [body, name] : {std::pair{Body::pinion, std::string("pinion")}, {Body::wheel, "wheel"}}) {
+    std::vector<dynamics::StageBearing> bearings;
+    for (const auto& b : pair.bearings)
+      if (b.body.kind == body) bearings.push_back(b);
+    list.push_back(radial_dof(name, bearings));
+    if (leaves_plane) {
+      list.push_back(axial_dof(name, bearings));
+      list.push_back(tilt_dof(name, bearings));
+    } else {
+      list.push_back(no_dof_out_of_plane(name));
+    }
+    for (const auto& dof : plane)
+      if (dof.name == name + " u") list.push_back(dof);
+  }
+  return list;
+}
+
+std::vector<Warning> pair_space_warnings(const Scene& scene) {
+  std::vector<Warning> list;
+  if (!pair_in_space(scene)) return list;
+  const auto& space = scene.own<SpaceInput>();
+  std::vector<std::string> held, assumed;
+  for (const auto& [body, name, gear, tilting] :
+       {std::tuple{Body::pinion, "pinion", &scene.pinion, &space.tilt_inertia.pinion},
+        {Body::wheel, "wheel", &scene.wheel, &space.tilt_inertia.wheel}}) {
+    if (!has_bearing(scene, body, false)) held.emplace_back(name);
+    if (!*tilting) assumed.push_back(fmt::format("tilt_inertia.{}_kg_m2", name));
+    const auto key = fmt::format("{}.bearing_transverse_N_per_m", name);
+    const auto* input = scene.find(key);
+    if (input != nullptr && input->origin == Origin::scene && has_bearing(scene, body, true))
+      list.push_back({"support_replaced", Severity::warning,
+                      fmt::format("{} is left out: the {} is held by its [[bearing]] tables alone", key, name)});
+  }
+  if (!held.empty())
+    list.push_back({"held_in_space", Severity::warning,
+                    fmt::format("no [[bearing]] holds the {}: it lies in the bearings of its own table and is assumed "
+                                "not to tilt",
+                                fmt::join(held, ", "))});
+  std::vector<std::string> bent;
+  for (const auto& b : space.bearings)
+    if (bends(b)) bent.push_back("'" + b.name + "'");
+  if (!bent.empty()) list.push_back(bearings_linear(bent, ""));
+  if (space.gravity && (space.gravity->pinion != 0 || space.gravity->wheel != 0)) list.push_back(mass_in_middle());
+  if (!assumed.empty()) list.push_back(tilt_inertia_assumed(assumed));
+  return list;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/plan/plan.h"
+#include "app/plan/warning.h"
+#include "app/scene/scene.h"
+#include "app/systems/helical_pair/pair_model.h"
+#include "core/face_shape.h"
+
+/// Pairs whose gears lie in bearings with places, and tilt.
+namespace annulus::app {
+
+/// Whether the scene has [[bearing]] or [[load]] tables or [gravity].
+[[nodiscard]] bool pair_in_space(const Scene& scene);
+
+/// Replaces the bearings of a pair in its plane by those of the scene. `face`: of solid gears, or null. Throws
+/// InputError where something moves freely.
+void put_in_space(dynamics::HelicalPair& pair, const Scene& scene, const PairGeometry& geometry,
+                  const std::shared_ptr<const FaceShape>& face);
+
+/// Degrees of freedom and why they are there or not. `plane`: those of the plane.
+[[nodiscard]] std::vector<DofPlan> pair_dofs_in_space(const Scene& scene, const PairGeometry& geometry,
+                                                      std::vector<DofPlan> plane);
+/// What the dynamics assumes and leaves out of these tables.
+[[nodiscard]] std::vector<Warning> pair_space_warnings(const Scene& scene);
+
+}  // namespace annulus::app

@@ -1,0 +1,68 @@
+#include "app/systems/shared/space_input.h"
+
+#include <cmath>
+
+namespace annulus::app {
+
+namespace {
+
+using Body = dynamics::StageBody::Kind;
+
+Eigen::Vector3d vector_of(const std::vector<double>& list) {
+  return list.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(list[0], list[1], list[2]);
+}
+
+}  // namespace
+
+dynamics::RollingRow rolling_row(const BearingInput& input) {
+  using Row = dynamics::RollingRow;
+  Row row;
+  row.element = input.balls ? Row::Element::ball : Row::Element::roller;
+  row.count = input.balls ? *input.balls : *input.rollers;
+  row.diameter = input.balls ? *input.ball_diameter : *input.roller_diameter;
+  row.length = input.roller_length.value_or(0);
+  row.pitch_diameter = input.pitch_diameter.value_or(0);
+  row.contact_angle = input.contact_angle;
+  row.clearance = input.clearance;
+  row.inner_groove = input.inner_groove;
+  row.outer_groove = input.outer_groove;
+  row.ring = input.ring.value_or(input.body == Body::planet ? Row::Ring::outer : Row::Ring::inner);
+  return row;
+}
+
+dynamics::StageBearing stage_bearing(const BearingInput& input, const dynamics::StageBody& body, std::string name) {
+  dynamics::StageBearing b;
+  const bool planet = body.kind == Body::planet;
+  b.name = std::move(name);
+  b.body = body;
+  b.on = {input.on.value_or(planet ? Body::carrier : Body::housing)};
+  b.frame = planet ? dynamics::StageFrame::planet : input.frame;
+  b.place = input.place;
+  b.x = input.x.value_or(input.radial.value_or(0));
+  b.y = input.y.value_or(input.radial.value_or(0));
+  b.axial = input.axial;
+  b.tilt = input.tilt;
+  b.play = input.clearance / 2;
+  b.load_zone = input.load_zone;
+  b.axial_play = input.axial_clearance / 2;
+  b.distance = input.displacement;
+  b.force = input.force;
+  if (input.rolls()) {
+    b.row = rolling_row(input);
+    b.play = 0;
+  }
+  if (!input.matrix.empty())
+    b.matrix = Eigen::Map<const Eigen::Matrix<double, 5, 5, Eigen::RowMajor>>(input.matrix.data());
+  return b;
+}
+
+dynamics::StageLoad stage_load(const LoadInput& input, const dynamics::StageBody& body, std::string name) {
+  return {std::move(name), body, input.frame, vector_of(input.point), vector_of(input.force), vector_of(input.moment)};
+}
+
+Eigen::Vector3d GravityInput::vector() const {
+  const double in_plane = acceleration * std::cos(inclination);
+  return {in_plane * std::cos(direction), in_plane * std::sin(direction), acceleration * std::sin(inclination)};
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "app/model/dynamics_members.h"
+#include "dynamics/spatial/linear_supports.h"
+
+/// Bearings, loads and faces of bodies in space (core/bytes.h).
+namespace annulus {
+
+ANNULUS_MEMBERS(dynamics::StageBody, kind, planet);
+ANNULUS_MEMBERS(dynamics::LinearBearing, name, body, on, place, stiffness, rigid, preload, standing);
+ANNULUS_MEMBERS(dynamics::LinearCoupling, name, bearings, stiffness, turns_ring, ring_preload);
+ANNULUS_MEMBERS(dynamics::SpaceLoad, body, load);
+ANNULUS_MEMBERS(dynamics::StandingLoad, body, cosine, sine);
+ANNULUS_MEMBERS(dynamics::SpaceSupports, bearings, couplings, loads, standing_loads);
+ANNULUS_MEMBERS(FaceShape, slope, curvature, gap_slope, error_relative, tilted);
+ANNULUS_MEMBERS(dynamics::SpreadFace, width, middle, gap, shape);
+
+}  // namespace annulus

@@ -1,0 +1,101 @@
+#include "app/systems/shared/space_results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "app/sections/report_parts.h"
+#include "dynamics/figures/motion.h"
+
+namespace annulus::app {
+
+namespace {
+
+void add_column(Csv& csv, const std::string& name, const Eigen::VectorXd& cycles) {
+  csv.columns.push_back(name);
+  for (std::size_t c = 0; c < csv.rows.size(); ++c) csv.rows[c].push_back(cycles[static_cast<Eigen::Index>(c)]);
+}
+
+/// Of those that are known.
+std::pair<double, double> known_range(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  std::pair<double, double> range{not_known, not_known};
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    range.first = std::isnan(range.first) ? value : std::min(range.first, value);
+    range.second = std::isnan(range.second) ? value : std::max(range.second, value);
+  }
+  return range;
+}
+
+double mean_of(const Eigen::VectorXd& values) { return values.size() == 0 ? not_known : values.mean(); }
+
+}  // namespace
+
+SpaceResults space_results(const dynamics::SpaceMotion& found, int cycles) {
+  SpaceResults results;
+  if (found.bearings.empty()) return results;
+  auto& csv = results.table;
+  csv.columns = {"mesh_cycle"};
+  for (int c = 0; c < cycles; ++c) csv.rows.emplace_back(1, c);
+  for (const auto& bearing : found.bearings) {
+    const auto& name = bearing.name;
+    const Eigen::VectorXd radial = bearing.force.topRows<2>().colwise().norm().transpose();
+    const Eigen::VectorXd axial = bearing.force.row(2).transpose();
+    const Eigen::VectorXd moment = bearing.force.bottomRows<2>().colwise().norm().transpose();
+    results.bearings.push_back(
+        {name, mean_of(radial), radial.maxCoeff(), mean_of(axial), axial.cwiseAbs().maxCoeff(), moment.maxCoeff()});
+    const auto in_cycles = [&](const Eigen::VectorXd& values) { return dynamics::over_cycles(values, cycles); };
+    add_column(csv, name + "_radial_max_N", in_cycles(radial).largest);
+    add_column(csv, name + "_axial_mean_N", in_cycles(axial).mean);
+    add_column(csv, name + "_moment_max_N_m", in_cycles(moment).largest);
+  }
+  for (const auto& mesh : found.meshes) {
+    const Eigen::Index samples = mesh.place.size() / cycles;
+    Eigen::VectorXd smallest(cycles), largest(cycles);
+    for (int c = 0; c < cycles; ++c)
+      std::tie(smallest[c], largest[c]) = known_range(mesh.place.segment(c * samples, samples));
+    const auto [low, high] = known_range(mesh.place);
+    results.meshes.push_back({mesh.name, mesh.mean_place, low, high});
+    add_column(csv, mesh.name + "_place_min_m", smallest);
+    add_column(csv, mesh.name + "_place_max_m", largest);
+  }
+  return results;
+}
+
+void add_json(Json& json, const SpaceResults& results) {
+  for (const auto& b : results.bearings)
+    json["bearings_in_space"][b.name] = {{"radial_mean_N", json_number(b.radial_mean)},
+                                         {"radial_max_N", json_number(b.radial_max)},
+                                         {"axial_mean_N", json_number(b.axial_mean)},
+                                         {"axial_max_N", json_number(b.axial_max)},
+                                         {"moment_max_N_m", json_number(b.moment_max)}};
+  for (const auto& mesh : results.meshes)
+    json["places_of_mesh_forces"][mesh.name] = {{"mean_m", json_number(mesh.place_mean)},
+                                                {"min_m", json_number(mesh.place_min)},
+                                                {"max_m", json_number(mesh.place_max)}};
+}
+
+Blocks space_blocks(const SpaceResults& results, const std::string& of) {
+  if (results.bearings.empty()) return {};
+  const auto number = [](double scale, double value) { return Text(to_text(scale * value, 4)); };
+  PageTable bearings{.head = {"bearings" + of, "radial force, mean, kN", "largest", "axial force, mean, kN", "largest",
+                              "moment, largest, N m"}};
+  for (const auto& b : results.bearings)
+    bearings.rows.push_back({b.name, number(1e-3, b.radial_mean), number(1e-3, b.radial_max),
+                             number(1e-3, b.axial_mean), number(1e-3, b.axial_max), number(1, b.moment_max)});
+  PageTable places{.head = {"mesh force along the face" + of, "mean place, mm", "from", "to"}};
+  for (const auto& mesh : results.meshes)
+    places.rows.push_back(
+        {mesh.name, number(1e3, mesh.place_mean), number(1e3, mesh.place_min), number(1e3, mesh.place_max)});
+  return heading("Bearings and faces in space") + Blocks(bearings) +
+         paragraph(
+             "Without the dampers of the bearings. Forces in rigid coordinates are not known. Places count from the "
+             "middle of the common face. A force that moves along the face loads the bearings at the mesh frequency "
+             "even where its amount is constant (shuttling).") +
+         places;
+}
+
+}  // namespace annulus::app

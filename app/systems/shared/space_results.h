@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/report/section.h"
+#include "core/csv.h"
+#include "core/json.h"
+#include "core/not_known.h"
+#include "dynamics/spatial/space_motion.h"
+
+/// What bearings and meshes of a system in space do over the evaluated window.
+namespace annulus::app {
+
+struct SpaceResults {
+  /// Largest and mean forces (N) and moments (N m); not known where rigid.
+  struct Bearing {
+    std::string name;
+    double radial_mean = not_known, radial_max = not_known, axial_mean = not_known, axial_max = not_known;
+    double moment_max = not_known;
+  };
+  /// Place of the mesh force along the face, m from its middle.
+  struct Mesh {
+    std::string name;
+    double place_mean = not_known, place_min = not_known, place_max = not_known;
+  };
+  std::vector<Bearing> bearings{};
+  std::vector<Mesh> meshes{};
+  Csv table{};  ///< per mesh cycle
+};
+
+/// `cycles`: mesh cycles of the window. Empty without bearings.
+[[nodiscard]] SpaceResults space_results(const dynamics::SpaceMotion& motion, int cycles);
+/// Members bearings_in_space and places_of_mesh_forces; none where there are no results.
+void add_json(Json& json, const SpaceResults& results);
+/// `of`: " of 'held'", or nothing.
+[[nodiscard]] Blocks space_blocks(const SpaceResults& results, const std::string& of);
+
+}  // namespace annulus::app

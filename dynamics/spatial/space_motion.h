@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/spatial/space_bodies.h"
+#include "dynamics/steady_state/steady_response.h"
+
+namespace annulus::dynamics {
+
+/// What bearings and meshes of a system in space do over time.
+struct SpaceMotion {
+  struct Bearing {
+    std::string name;  ///< LinearBearing::element()
+    StageBody body, on;
+    /// N, N m: x, y, z, about x, about y in the axes of the body, on the body, x times; without its dampers. Not known
+    /// in rigid coordinates.
+    Eigen::MatrixXd force;
+  };
+  static constexpr double light = 0.05;  ///< of the mean force: where a mesh carries less, its place says nothing
+  struct Mesh {
+    std::string name;
+    double mean_place = 0;  ///< m, of the mean force and moment
+    /// m, z of the resultant from the middle of the common face; not known of light forces.
+    Eigen::VectorXd place;
+  };
+  std::vector<Bearing> bearings;  ///< those that give way
+  Eigen::VectorXd ring_torque{};  ///< N m, of the housing on the ring, where LinearCoupling::turns_ring
+  std::vector<Mesh> meshes;       ///< in their order
+};
+
+/// The system that a series belongs to.
+struct SpaceSystem {
+  std::vector<std::vector<LinearForm>> bearings{};  ///< coordinates of each in its place
+  LinearForm ring_u{};
+  double ring_radius = 0;                  ///< m
+  double carrier_speed = 0;                ///< rad/s
+  std::vector<const SpreadFace*> faces{};  ///< of each mesh
+};
+/// `series`: forces of all meshes, then those of their tilts (spread_over_face()).
+[[nodiscard]] SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& system,
+                                          const TimeSeries& series);
+
+}  // namespace annulus::dynamics
