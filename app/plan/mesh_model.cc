@@ -8,6 +8,7 @@
 #include "app/results/content_id.h"
 #include "fem/loaded_mesh.h"
 #include "fem/problem/solved_face.h"
+#include "fem/solid_face.h"
 
 namespace annulus::app {
 
@@ -201,7 +202,11 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
                            .accuracy = scene.accuracy,
                            .mean_force = mesh.mean_force,
                            .ring_modes_count = scene.dynamics && scene.dynamics->rim_coupling == RimCoupling::elastic};
-  static_cast<fem::MeshChoice&>(model) = remembered_choice(model, solid_reason(scene, mesh), wish);
+  auto why_solid = solid_reason(scene, mesh);
+  if (why_solid.empty() && scene.fidelity == Fidelity::automatic &&
+      fem::why_no_solid_face(*model.problem, fem::Fidelity::solid).empty())
+    why_solid = mesh.why_it_tilts;
+  static_cast<fem::MeshChoice&>(model) = remembered_choice(model, why_solid, wish);
   model.fidelity = fidelity_name(model.settings.fidelity);
   return model;
 }

@@ -78,6 +78,15 @@ double tilt_inertia(const Scene& scene, const std::optional<double>& given, cons
 
 bool pair_in_space(const Scene& scene) { return scene.own<SpaceInput>().any(); }
 
+std::string why_gears_tilt(const Scene& scene, const PairGeometry& geometry) {
+  if (!pair_in_space(scene)) return {};
+  auto pair = spatial_pair(scene, geometry);
+  pair.face = motion_face(geometry.gears, scene.pinion_wheel, nullptr, scene.errors.pinion_wheel_misalignment,
+                          GapsAlong::normal);
+  const auto reasons = pair.reasons_for_space();
+  return reasons.empty() ? "" : "the gears tilt: " + reasons.front();
+}
+
 void put_in_space(dynamics::HelicalPair& pair, const Scene& scene, const PairGeometry& geometry,
                   const std::shared_ptr<const FaceShape>& face) {
   const auto& tilting = scene.own<SpaceInput>().tilt_inertia;

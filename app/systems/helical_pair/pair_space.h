@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "app/plan/plan.h"
@@ -14,6 +15,9 @@ namespace annulus::app {
 
 /// Whether the scene has [[bearing]] or [[load]] tables or [gravity].
 [[nodiscard]] bool pair_in_space(const Scene& scene);
+
+/// Why gears tilt; empty: they do not.
+[[nodiscard]] std::string why_gears_tilt(const Scene& scene, const PairGeometry& geometry);
 
 /// Replaces the bearings of a pair in its plane by those of the scene. `face`: of solid gears, or null. Throws
 /// InputError where something moves freely.

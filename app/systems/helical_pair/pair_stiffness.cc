@@ -31,7 +31,8 @@ GearMesh external_pair(const Scene& scene, const PairGeometry& geometry) {
           .wheel_name = "wheel",
           .wheel_support_diameter = scene.wheel.bore_diameter,
           .misalignment = scene.errors.pinion_wheel_misalignment,
-          .mean_force = geometry.transverse_force};
+          .mean_force = geometry.transverse_force,
+          .why_it_tilts = why_gears_tilt(scene, geometry)};
 }
 
 double mean_secant(const StiffnessTable& table, double load) {

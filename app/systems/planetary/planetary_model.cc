@@ -4,9 +4,11 @@
 
 #include "app/results/cached_value.h"
 #include "app/systems/planetary/ring_structures.h"
+#include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/mesh_names.h"
+#include "app/systems/shared/space_input.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "dynamics/systems/planetary/study_point.h"
@@ -32,6 +34,13 @@ std::optional<fem::PlanetRollers> rollers_of(const Scene& scene, const geometry:
   return fem::PlanetRollers{scene.supports.planet, scene.supports.planet_clearance / 2, partner};
 }
 
+/// Load moves along the face of gears that tilt.
+std::string why_it_tilts(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
+  if (!scene.own<SpaceInput>().any()) return {};
+  const auto reasons = spatial_frame(scene, geometry, ring).reasons_for_space();
+  return reasons.empty() ? "" : "the gears tilt: " + reasons.front();
+}
+
 }  // namespace
 
 MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
@@ -46,7 +55,8 @@ MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
                             .wheel_support_diameter = scene.sun.bore_diameter,
                             .planet_rollers = rollers_of(scene, geometry.rings.front().set.ring_mesh()),
                             .misalignment = scene.errors.sun_planet_misalignment,
-                            .mean_force = geometry.operating_point.mean_mesh_force});
+                            .mean_force = geometry.operating_point.mean_mesh_force,
+                            .why_it_tilts = why_it_tilts(scene, geometry, 0)});
 }
 
 MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
@@ -67,7 +77,8 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
                             .gauges_across = gauges_need_solid(scene, input),
                             .planet_rollers = rollers_of(scene, made.set.sun_mesh()),
                             .misalignment = scene.errors.ring_planet_misalignment,
-                            .mean_force = geometry.operating_point.mean_mesh_force});
+                            .mean_force = geometry.operating_point.mean_mesh_force,
+                            .why_it_tilts = why_it_tilts(scene, geometry, ring)});
 }
 
 std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geometry) {

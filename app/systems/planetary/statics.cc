@@ -197,15 +197,6 @@ void warn_of_loads_beyond(std::vector<Warning>& list, const StaticTurn& turn, co
        ring});
 }
 
-/// Bodies that tilt need solid gears, where the scene leaves the model to the program.
-Scene with_solids_in_space(const Scene& scene, const GearGeometry& geometry) {
-  Scene chosen = scene;
-  if (scene.fidelity != Fidelity::automatic) return chosen;
-  for (std::size_t ring = 0; ring < scene.rings.size(); ++ring)
-    if (!spatial_frame(scene, geometry, ring).reasons_for_space().empty()) chosen.fidelity = Fidelity::solid;
-  return chosen;
-}
-
 struct RingProblem {
   const Scene& scene;
   const GearGeometry& geometry;
@@ -283,21 +274,20 @@ StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, con
   RunOptions options = run_options;
   options.with_dynamics = false;
   options.out = run_options.out / "statics";  // beside the tables of a run, which may have another model
-  const Scene chosen = with_solids_in_space(scene, geometry);
   std::vector<MeshResult> tables;
   std::vector<std::shared_ptr<const fem::SolidFace>> faces;
-  for (const auto& model : mesh_models(chosen, geometry)) {
-    auto& mesh = tables.emplace_back(mesh_stiffness(chosen, geometry, model, options));
-    if (may_be_coupled_at_rest(chosen, model))
+  for (const auto& model : mesh_models(scene, geometry)) {
+    auto& mesh = tables.emplace_back(mesh_stiffness(scene, geometry, model, options));
+    if (may_be_coupled_at_rest(scene, model))
       mesh.coupling = std::make_shared<SolvedCoupling>(
-          solve_coupling(chosen, geometry, model, 1 / mesh.mean_stiffness().value, options, options.out / model.ring));
+          solve_coupling(scene, geometry, model, 1 / mesh.mean_stiffness().value, options, options.out / model.ring));
     faces.push_back(solid_face(mesh, options));
   }
   StageStatics statics{scene, {}};
   for (std::size_t ring = 0; ring < scene.rings.size(); ++ring) {
     try {
       statics.rings.push_back(solve_ring(
-          {chosen, geometry, ring, tables.front(), tables.at(ring + 1), faces.front(), faces.at(ring + 1)}, options));
+          {scene, geometry, ring, tables.front(), tables.at(ring + 1), faces.front(), faces.at(ring + 1)}, options));
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: ring '{}': {}", scene.file.string(), scene.rings[ring].name, error.what()));
     }

@@ -343,16 +343,17 @@ BOOST_AUTO_TEST_CASE(misaligned_sun_mesh) {
     }
     record.close("force of the whole face", "N", force, load, 1e-5, "digits of the file");
     const double tilting = 12 * std::abs(moment) / (misalignment * width * width), factor = top * width / load;
-    record.close("K_Hbeta of straight line loads with this moment", "", factor, factor_of(tilting),
-                 (1 - 1 / factor_of(tilting)) * 2 / static_cast<double>(whole.size()),
-                 "a piece of the face at its end");
     const auto& pairs = touching.at(phase);
     const bool all =
         std::all_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.second.size() == whole.size(); });
-    if (all && pairs.size() == touching_aligned.at(phase).size())  // else a part of the face has another pair
+    if (all && pairs.size() == touching_aligned.at(phase).size()) {  // else a part of the face has another pair
+      record.close("K_Hbeta of straight line loads with this moment", "", factor, factor_of(tilting),
+                   (1 - 1 / factor_of(tilting)) * 2 / static_cast<double>(whole.size()),
+                   "a piece of the face at its end");
       record.at_least("stiffness against a tilt over that against an approach", "",
                       tilting * width / tangents.at(phase - std::floor(phase)), 1,
                       "what gives way as a whole, bodies and hubs, does not tilt");
+    }
     largest = std::max(largest, factor);
     mean += factor / static_cast<double>(loads.size());
   }
