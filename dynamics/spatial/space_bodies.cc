@@ -115,9 +115,15 @@ class SpaceBodies {
     const auto d =
         constraints.solve([&](int i) { return builder_.add_dof(name + dofs.at(static_cast<std::size_t>(i))); });
     BodyForms forms{d[0], d[1], {}, d[2], d[3], d[4]};
-    builder_.add_rotating_mass(forms.x, forms.y, body.mass, frame_.speed);
+    const double off = body.mass_place, in_centre = body.tilt_inertia - body.mass * off * off;
+    if (!(in_centre > 0))
+      throw InputError(
+          fmt::format("the tilting inertia of the {}, {:g} kg m^2 about its middle, is less than that of its "
+                      "mass of {:g} kg at z = {:g} m",
+                      name, body.tilt_inertia, body.mass, off));
+    builder_.add_rotating_mass(forms.x + off * forms.tilt_y, forms.y + (-off) * forms.tilt_x, body.mass, frame_.speed);
     builder_.add_mass(forms.z, body.mass);
-    builder_.add_tilting_mass(forms.tilt_x, forms.tilt_y, body.tilt_inertia, body.inertia, body.spin, frame_.speed);
+    builder_.add_tilting_mass(forms.tilt_x, forms.tilt_y, in_centre, body.inertia, body.spin, frame_.speed);
     const double rotating = body.inertia / (body.radius * body.radius);
     if (body.torsional_support != rigid) {
       forms.u = builder_.add_dof(name + "_u");

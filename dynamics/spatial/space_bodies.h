@@ -19,7 +19,8 @@ struct SpaceBody {
   StageBody body;
   double mass = 0, inertia = 0;  ///< kg, kg m^2 about the axis
   double radius = 0;             ///< m: u is this times the rotation
-  double tilt_inertia = 0;       ///< kg m^2, about axes across the body's own
+  double tilt_inertia = 0;       ///< kg m^2, about axes across the body's own, in its middle
+  double mass_place = 0;         ///< m, z of the centre of mass from the middle; 0 of planets
   double spin = 0;               ///< rad/s about its axis, in space
   double torsional_support = 0;  ///< N/m on the radius; `rigid`: it does not turn beside its speed
 };

@@ -148,7 +148,10 @@ MadeBearing BearingAssembly::add(const StageBearing& b, const BearingPlace& plac
   }
   if (!space_) return made;
   if (made.element[2] < 0) add_scalar(made, b, place, 2, b.axial, b.axial_play);
-  if (!b.row) {
+  if (b.row) return made;
+  if (b.tilt_play > 0 && b.tilt > 0) {
+    add_element(made, b, place, {3, 4}, std::make_shared<StopLaw>(2, b.tilt, b.tilt_play));
+  } else {
     add_scalar(made, b, place, 3, b.tilt, 0);
     add_scalar(made, b, place, 4, b.tilt, 0);
   }

@@ -28,6 +28,7 @@ struct StageBearing {
   double play = 0;                          ///< m, half the radial clearance; x and y are then equal and finite
   bool load_zone = true;                    ///< with play: RadialBearing; else a stop (StopLaw)
   double axial_play = 0;                    ///< m, half the axial clearance
+  double tilt_play = 0;                     ///< rad, half the tilt clearance, of a finite tilt stiffness
   std::vector<double> distance{}, force{};  ///< m, N: radial, over each other, instead of x, y and play (TableLaw)
   std::optional<RollingRow> row{};          ///< instead of x, y, tilt and play, with a contact angle of axial too
   double seat = rigid;                      ///< N/m, in series with a bearing that has play and a load zone

@@ -340,7 +340,7 @@ BOOST_AUTO_TEST_CASE(a_carrier_that_gives_way) {
     BOOST_TEST(outcome.err.find("carrier_structure.stiffness_file") != std::string::npos, outcome.err);
     BOOST_TEST(outcome.err.find(text) != std::string::npos, outcome.err);
   };
-  refused("planet1_x_m\n1\n", "3 planets have 5 or 6 coordinates each");
+  refused("planet1_x_m\n1\n", "has no column planet1_y_m");
 }
 
 // A row of rollers with a contact angle holds its body in one direction along the axis. In the other one what is left

@@ -11,6 +11,7 @@
 #include "dynamics/systems/helical_pair/pair_response.h"
 #include "dynamics/systems/helical_pair/spatial_pair.h"
 #include "tests/dynamics/pairs.h"
+#include "tests/dynamics/second_derivatives.h"
 #include "tests/dynamics/spatial_stages.h"
 #include "tests/verification_record.h"
 
@@ -32,7 +33,6 @@ SpatialPair spatial(const HelicalPair& pair, std::vector<StageBearing> bearings)
   SpatialPair s;
   s.base_helix_angle = pair.base_helix_angle;
   s.working_angle = working_angle;
-  s.base_radius_pinion = pair.pinion.radius;
   s.working_radius_pinion = working_radius(pair.pinion);
   s.working_radius_wheel = working_radius(pair.wheel);
   s.pinion_torque = pair.pinion_torque;
@@ -139,19 +139,16 @@ BOOST_AUTO_TEST_CASE(modes_are_those_of_rigid_bodies_with_exact_rotations) {
       mass.segment<6>(first) << gear.mass, gear.mass, gear.mass, across, across, gear.inertia;
       step.segment<6>(first) << 1e-4, 1e-4, 1e-4, 1e-3, 1e-3, 1e-3;
     }
-    Eigen::MatrixXd k(size, size);
-    const auto at = [&](Eigen::Index i, double a, Eigen::Index j, double b) {
-      Eigen::VectorXd q = Eigen::VectorXd::Zero(size);
-      q[i] += a * step[i];
-      q[j] += b * step[j];
-      return bodies.energy(q);
-    };
-    for (Eigen::Index i = 0; i < size; ++i)
-      for (Eigen::Index j = 0; j < size; ++j)
-        k(i, j) = (at(i, 1, j, 1) - at(i, 1, j, -1) - at(i, -1, j, 1) + at(i, -1, j, -1)) / (4 * step[i] * step[j]);
-    const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(root.asDiagonal() * k * root.asDiagonal());
-    const auto found = modes(lumped(pair, s)).modes;
+    const auto k = second_derivatives([&](const Eigen::VectorXd& q) { return bodies.energy(q); }, step);
+    // The mass of the pinion is beside its middle, where the tilting inertia counts from.
+    constexpr double off = 0.08;
+    Eigen::MatrixXd inertia = mass.asDiagonal();
+    inertia(0, 4) = inertia(4, 0) = pair.pinion.mass * off;
+    inertia(1, 3) = inertia(3, 1) = -pair.pinion.mass * off;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(k, inertia);
+    auto made = lumped(pair, s);
+    made.space->mass_place_pinion = off;
+    const auto found = modes(made).modes;
     BOOST_TEST_REQUIRE(found.size() == 12U);
     BOOST_TEST(found.front().frequency == 0);
     for (std::size_t i = 1; i < found.size(); ++i)
@@ -301,6 +298,9 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
         s.bearings.pop_back();
       },
       "nothing resists");
+  auto heavy = lumped(plain, spatial(plain, unlike_bearings()));
+  heavy.space->mass_place_pinion = 1;
+  BOOST_CHECK_THROW((void)assemble(heavy), annulus::InputError);
   auto negative = lumped(plain, spatial(plain, unlike_bearings()));
   negative.pinion_torque = -1;
   BOOST_CHECK_THROW(negative.check(), annulus::InputError);

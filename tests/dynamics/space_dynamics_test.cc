@@ -21,6 +21,7 @@
 #include "dynamics/systems/planetary/stage_statics.h"
 #include "dynamics/systems/planetary/working_point.h"
 #include "tests/dynamics/lumped_stages.h"
+#include "tests/dynamics/second_derivatives.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
 
@@ -167,22 +168,6 @@ class RigidBodies {
   const SpatialStage& stage_;
 };
 
-/// Second derivatives at rest, by central differences.
-Eigen::MatrixXd stiffness_of(const RigidBodies& bodies, Eigen::Index size, const Eigen::VectorXd& step) {
-  Eigen::MatrixXd k(size, size);
-  const auto at = [&](Eigen::Index i, double a, Eigen::Index j, double b) {
-    Eigen::VectorXd q = Eigen::VectorXd::Zero(size);
-    q[i] += a * step[i];
-    q[j] += b * step[j];
-    return bodies.energy(q);
-  };
-  for (Eigen::Index i = 0; i < size; ++i)
-    for (Eigen::Index j = 0; j <= i; ++j)
-      k(i, j) = k(j, i) =
-          (at(i, 1, j, 1) - at(i, 1, j, -1) - at(i, -1, j, 1) + at(i, -1, j, -1)) / (4 * step[i] * step[j]);
-  return k;
-}
-
 SpatialStage with_planets(double helix, int planets) {
   auto s = stages::reliability_stage(helix * units::deg);
   s.plane.planet_angles.clear();
@@ -216,7 +201,8 @@ BOOST_AUTO_TEST_CASE(modes_are_those_of_rigid_bodies_with_exact_rotations) {
     std::vector<Eigen::Index> kept;
     for (Eigen::Index i = 0; i < size; ++i)
       if (i != 6 + 5) kept.push_back(i);
-    const Eigen::MatrixXd k = stiffness_of(RigidBodies(s), size, step)(kept, kept);
+    const Eigen::MatrixXd k =
+        second_derivatives([&](const Eigen::VectorXd& q) { return RigidBodies(s).energy(q); }, step)(kept, kept);
     const Eigen::VectorXd root = mass(kept).cwiseSqrt().cwiseInverse();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(root.asDiagonal() * k * root.asDiagonal());
     BOOST_REQUIRE(static_cast<Eigen::Index>(found.modes.size()) == std::ssize(kept));

@@ -377,6 +377,22 @@ BOOST_AUTO_TEST_CASE(pins_bend_and_tilt) {
 }
 
 // Two rigid bearings on either side of the face: in the plane they hold the same, and each bears half.
+// A spline with backlash lets the shaft tilt to its stop, and resists beyond.
+BOOST_AUTO_TEST_CASE(tilt_clearance) {
+  annulus::test::Verification record("Bearing with tilt clearance", "moment over stiffness, beyond the clearance");
+  Mechanism mechanism(0.1);
+  mechanism.add_body({"shaft"});
+  BearingAssembly bearings(mechanism, true);
+  auto spline = bearing("spline", {Kind::sun}, {}, 0.2, rigid, rigid, 3e6);
+  spline.tilt_play = 2e-3;
+  (void)bearings.add(spline, {});
+  mechanism.hold("the rotation", mechanism.rotation(0, Mechanism::ground, Eigen::Vector3d::UnitZ()));
+  mechanism.add_load(0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), {400, -300, 0});
+  const Eigen::Vector2d tilt = mechanism.solve().motion.segment<2>(3);
+  record.close("tilt", "rad", tilt.norm(), 2e-3 + 500 / 3e6, 1e-6, "what holds the body in its play");
+  record.close("its direction", "", tilt.x() / tilt.y(), -4.0 / 3, 1e-9, "rounding");
+}
+
 BOOST_AUTO_TEST_CASE(rigid_bearings_on_either_side) {
   auto s = stages::reliability_stage(0);
   s.plane.carrier.support = 1e9;

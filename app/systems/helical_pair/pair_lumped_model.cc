@@ -17,7 +17,8 @@ struct Members<dynamics::PairSpace> {
   template <class Space>
   static auto of(Space& s) {
     return std::tie(static_cast<dynamics::SpaceSupports&>(s), s.working_angle, s.working_radius_pinion,
-                    s.working_radius_wheel, s.tilt_inertia_pinion, s.tilt_inertia_wheel, s.face);
+                    s.working_radius_wheel, s.tilt_inertia_pinion, s.tilt_inertia_wheel, s.mass_place_pinion,
+                    s.mass_place_wheel, s.face);
   }
 };
 ANNULUS_MEMBERS(dynamics::HelicalPair, pinion, wheel, base_helix_angle, mesh, mesh_error, half_backlash, mesh_damping,

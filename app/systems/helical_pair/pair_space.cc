@@ -35,7 +35,6 @@ dynamics::SpatialPair spatial_pair(const Scene& scene, const PairGeometry& geome
   dynamics::SpatialPair pair;
   pair.base_helix_angle = std::copysign(geometry.base_helix_angle, scene.stage.helix_angle);
   pair.working_angle = angle;
-  pair.base_radius_pinion = geometry.pinion().base_radius();
   pair.working_radius_pinion = geometry.pinion().base_radius() / std::cos(angle);
   pair.working_radius_wheel = geometry.wheel().base_radius() / std::cos(angle);
   pair.pinion_torque = scene.stage.pinion_torque;
@@ -62,7 +61,7 @@ dynamics::SpatialPair spatial_pair(const Scene& scene, const PairGeometry& geome
 }
 
 /// Across the axis: given, or that of a uniform cylinder.
-double tilt_inertia(const Scene& scene, const std::optional<double>& given, const PairGearInput& gear,
+double tilt_inertia(const Scene& scene, const std::optional<double>& given, const PairGearInput& gear, double place,
                     const char* name) {
   const double about_axis = *pair_inertia(scene, gear);
   if (given && *given < about_axis / 2)
@@ -71,7 +70,7 @@ double tilt_inertia(const Scene& scene, const std::optional<double>& given, cons
                            "has; it is that about an axis across the body's own",
                            name, *given, about_axis)));
   const double width = face_width_of(scene, gear);
-  return given.value_or(about_axis / 2 + *gear.mass * width * width / 12);
+  return given.value_or(about_axis / 2 + *gear.mass * (width * width / 12 + place * place));
 }
 
 }  // namespace
@@ -90,16 +89,20 @@ std::string why_gears_tilt(const Scene& scene, const PairGeometry& geometry) {
 void put_in_space(dynamics::HelicalPair& pair, const Scene& scene, const PairGeometry& geometry,
                   const std::shared_ptr<const FaceShape>& face) {
   const auto& tilting = scene.own<SpaceInput>().tilt_inertia;
+  const auto gravity = scene.own<SpaceInput>().gravity.value_or(GravityInput{});
   auto spatial = spatial_pair(scene, geometry);
   spatial.stiffness = dynamics::mean_stiffness(pair.mesh);
   spatial.face =
       motion_face(geometry.gears, scene.pinion_wheel, face, scene.errors.pinion_wheel_misalignment, GapsAlong::normal);
   try {
-    pair.space = dynamics::pair_about_equilibrium(spatial, tilt_inertia(scene, tilting.pinion, scene.pinion, "pinion"),
-                                                  tilt_inertia(scene, tilting.wheel, scene.wheel, "wheel"));
+    pair.space = dynamics::pair_about_equilibrium(
+        spatial, tilt_inertia(scene, tilting.pinion, scene.pinion, gravity.pinion, "pinion"),
+        tilt_inertia(scene, tilting.wheel, scene.wheel, gravity.wheel, "wheel"));
   } catch (const InputError& error) {
     throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
   }
+  pair.space->mass_place_pinion = gravity.pinion;
+  pair.space->mass_place_wheel = gravity.wheel;
 }
 
 std::vector<DofPlan> pair_dofs_in_space(const Scene& scene, const PairGeometry& geometry, std::vector<DofPlan> plane) {
@@ -151,7 +154,6 @@ std::vector<Warning> pair_space_warnings(const Scene& scene) {
   for (const auto& b : space.bearings)
     if (bends(b)) bent.push_back("'" + b.name + "'");
   if (!bent.empty()) list.push_back(bearings_linear(bent, ""));
-  if (space.gravity && (space.gravity->pinion != 0 || space.gravity->wheel != 0)) list.push_back(mass_in_middle());
   if (!assumed.empty()) list.push_back(tilt_inertia_assumed(assumed));
   return list;
 }

@@ -44,10 +44,16 @@ dynamics::StageSpace::TiltInertia tilt_inertia(const Scene& scene, const GearGeo
                                         "body's own",
                                         name, **tilting, about_axis)));
   const auto width = [](const geometry::Gear& gear) { return gear.parameters().face_width; };
-  return {given.sun.value_or(of_cylinder(*scene.sun.mass, *scene.sun.inertia, width(set.sun()))),
-          given.ring.value_or(of_cylinder(*input.mass, *input.inertia, width(set.ring()))),
-          given.carrier.value_or(of_cylinder(*scene.carrier.mass, *scene.carrier.inertia, width(set.planet()))),
-          given.planet.value_or(of_cylinder(*scene.planet.mass, *scene.planet.inertia, width(set.planet())))};
+  const auto g = scene.own<SpaceInput>().gravity.value_or(GravityInput{});
+  // About the middle of the stage, of cylinders whose middle is the centre of mass.
+  const auto beside = [](double mass, double place) { return mass * place * place; };
+  return {
+      given.sun.value_or(of_cylinder(*scene.sun.mass, *scene.sun.inertia, width(set.sun())) +
+                         beside(*scene.sun.mass, g.sun)),
+      given.ring.value_or(of_cylinder(*input.mass, *input.inertia, width(set.ring())) + beside(*input.mass, g.ring)),
+      given.carrier.value_or(of_cylinder(*scene.carrier.mass, *scene.carrier.inertia, width(set.planet())) +
+                             beside(*scene.carrier.mass, g.carrier)),
+      given.planet.value_or(of_cylinder(*scene.planet.mass, *scene.planet.inertia, width(set.planet())))};
 }
 
 bool depends_on_direction(const BearingInput& b) {
@@ -80,6 +86,7 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
   } catch (const InputError& error) {
     throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
   }
+  if (const auto& g = scene.own<SpaceInput>().gravity) stage.space->mass_place = {g->sun, g->ring, g->carrier};
   const auto& set = geometry.rings.at(ring).set;
   const auto& e = scene.errors;
   stage.space->sun_face = motion_face(set.sun_mesh(), scene.sun_planet, sun_mesh.face, e.sun_planet_misalignment,
@@ -95,9 +102,10 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
   std::vector<Warning> list;
   if (!space.any()) return list;
   const auto frame = spatial_frame(scene, geometry, 0);
-  if (space.gravity && (space.gravity->sun != 0 || space.gravity->planet != 0 || space.gravity->ring != 0 ||
-                        space.gravity->carrier != 0))
-    list.push_back(mass_in_middle());
+  if (space.gravity && space.gravity->planet != 0)
+    list.push_back({"mass_in_middle", Severity::warning,
+                    "the inertia of planets acts in the middle of their face in the dynamics, their weight at "
+                    "gravity.planet_at_mm"});
   std::vector<std::string> bent, directed;
   const auto in_housing = [&](const BearingInput& b) {
     if (!space.housing) return false;

@@ -15,12 +15,13 @@ ANNULUS_MEMBERS(dynamics::CentralBody, mass, inertia, radius, support, torsional
 ANNULUS_MEMBERS(dynamics::PlanetBody, mass, inertia, radius);
 ANNULUS_MEMBERS(dynamics::PlanetBearing, radial, tangential, play, pin);
 ANNULUS_MEMBERS(dynamics::StageSpace::TiltInertia, sun, ring, carrier, planet);
+ANNULUS_MEMBERS(dynamics::StageSpace::MassPlace, sun, ring, carrier);
 template <>
 struct Members<dynamics::StageSpace> {
   template <class Space>
   static auto of(Space& s) {
     return std::tie(static_cast<dynamics::SpaceSupports&>(s), s.base_helix_angle, s.planet_working_radius_sun,
-                    s.planet_working_radius_ring, s.sun_face, s.ring_face, s.tilt_inertia);
+                    s.planet_working_radius_ring, s.sun_face, s.ring_face, s.tilt_inertia, s.mass_place);
   }
 };
 ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bearings, planet_angles, planet_errors,

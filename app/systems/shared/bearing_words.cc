@@ -67,7 +67,7 @@ DofPlan no_dof_out_of_plane(const std::string& name) {
 }
 
 bool bends(const BearingInput& b) {
-  return b.rolls() || !b.displacement.empty() || b.clearance > 0 || b.axial_clearance > 0;
+  return b.rolls() || !b.displacement.empty() || b.clearance > 0 || b.axial_clearance > 0 || b.tilt_clearance > 0;
 }
 
 Warning bearings_linear(const std::vector<std::string>& names, const std::string& more) {
@@ -76,12 +76,6 @@ Warning bearings_linear(const std::vector<std::string>& names, const std::string
       fmt::format("the dynamics has the stiffness of bearing {} at the equilibrium at time 0, and the force that it "
                   "bears there. Motions that change its load by a large part of it are not right{}",
                   fmt::join(names, ", "), more)};
-}
-
-Warning mass_in_middle() {
-  return {"mass_in_middle", Severity::warning,
-          "the inertia of all bodies acts in the middle of the face of [stage] in the dynamics, their weight in the "
-          "places of [gravity]"};
 }
 
 Warning tilt_inertia_assumed(const std::vector<std::string>& keys) {

@@ -20,7 +20,6 @@ namespace annulus::app {
 [[nodiscard]] bool bends(const BearingInput& bearing);
 /// `names`: with quotes. `more`: what else there is for such bearings.
 [[nodiscard]] Warning bearings_linear(const std::vector<std::string>& names, const std::string& more);
-[[nodiscard]] Warning mass_in_middle();
 /// `keys`: those that the scene does not mention.
 [[nodiscard]] Warning tilt_inertia_assumed(const std::vector<std::string>& keys);
 

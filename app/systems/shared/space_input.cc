@@ -45,6 +45,7 @@ dynamics::StageBearing stage_bearing(const BearingInput& input, const dynamics::
   b.play = input.clearance / 2;
   b.load_zone = input.load_zone;
   b.axial_play = input.axial_clearance / 2;
+  b.tilt_play = input.tilt_clearance / 2;
   b.distance = input.displacement;
   b.force = input.force;
   if (input.rolls()) {

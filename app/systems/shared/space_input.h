@@ -23,7 +23,7 @@ struct BearingInput {
   double place = 0;
   std::optional<double> radial, x, y;
   double axial = 0, tilt = 0;
-  double clearance = 0, axial_clearance = 0;
+  double clearance = 0, axial_clearance = 0, tilt_clearance = 0;
   bool load_zone = true;
   std::vector<double> matrix;
   std::vector<double> displacement, force;

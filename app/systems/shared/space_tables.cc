@@ -194,6 +194,12 @@ Table bearing_table(SpaceOf of) {
       .fallback(0.0, "none")
       .from(0, 1e5);
   bearing
+      .key("tilt_clearance_deg", &BearingInput::tilt_clearance,
+           "Tilt clearance: how far the body tilts in any direction from stop to stop, as a spline with backlash does.")
+      .only_if(given("tilt_Nm_per_rad"), "beyond the clearance it needs a stiffness")
+      .fallback(0.0, "none")
+      .from(0, 10);
+  bearing
       .key("stiffness_5x5_N_m_rad", &BearingInput::matrix,
            "Stiffness matrix in rows, 25 values. Rows are forces along x, y, z (N) and moments about x, y (N m). "
            "Columns "
@@ -269,7 +275,7 @@ Table tilt_inertia_table(SpaceOf of) {
   for (const auto& [body, member] : members<TiltInertiaInput, std::optional<double>>(of))
     tilting.key(fmt::format("{}_kg_m2", body), member, fmt::format("Of the {}.", body))
         .above(0, 1e9)
-        .absent("a uniform cylinder as wide as the face: I/2 + m b^2/12");
+        .absent("a uniform cylinder as wide as the face about its centre of mass ([gravity]): I/2 + m b^2/12");
   return tilting.done();
 }
 
@@ -322,6 +328,10 @@ class SpaceChecks : KeyChecks {
       else if (*b.on == b.body)
         problem("bearing.on", i, "a body cannot stand on itself; use another body, or leave it out");
     }
+    if (b.tilt_clearance > 0 && (b.tilt == rigid || b.tilt == 0) && usable("bearing.tilt_clearance_deg", i) &&
+        usable("bearing.tilt_Nm_per_rad", i))
+      problem("bearing.tilt_clearance_deg", i,
+              "needs a bearing that gives way beyond it; use a finite bearing.tilt_Nm_per_rad above 0");
     const bool plays = (b.clearance > 0 && b.radial == rigid) || (b.axial_clearance > 0 && b.axial == rigid);
     if (plays && usable("bearing.clearance_um", i) && usable("bearing.axial_clearance_um", i))
       problem(b.clearance > 0 && b.radial == rigid ? "bearing.clearance_um" : "bearing.axial_clearance_um", i,

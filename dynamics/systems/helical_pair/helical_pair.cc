@@ -63,14 +63,15 @@ struct PairInSpace {
 /// Pinion, wheel.
 std::vector<BodyForms> add_bodies(LumpedSystemBuilder& builder, const HelicalPair& pair) {
   const auto& space = *pair.space;
-  const auto body = [](StageBody::Kind kind, const PairGear& gear, double tilting, double spin) {
-    return SpaceBody{{kind}, gear.mass, gear.inertia, gear.radius, tilting, spin, 0};
+  const auto body = [](StageBody::Kind kind, const PairGear& gear, double tilting, double place, double spin) {
+    return SpaceBody{{kind}, gear.mass, gear.inertia, gear.radius, tilting, place, spin, 0};
   };
-  return add_space_bodies(builder, space,
-                          {body(StageBody::Kind::pinion, pair.pinion, space.tilt_inertia_pinion, pair.pinion_speed),
-                           body(StageBody::Kind::wheel, pair.wheel, space.tilt_inertia_wheel, -pair.wheel_speed())},
-                          {0, 0, pair.bearing_damping_ratio},
-                          [](const auto&, const auto&, const auto&) { return seat_in_housing(); });
+  return add_space_bodies(
+      builder, space,
+      {body(StageBody::Kind::pinion, pair.pinion, space.tilt_inertia_pinion, space.mass_place_pinion,
+            pair.pinion_speed),
+       body(StageBody::Kind::wheel, pair.wheel, space.tilt_inertia_wheel, space.mass_place_wheel, -pair.wheel_speed())},
+      {0, 0, pair.bearing_damping_ratio}, [](const auto&, const auto&, const auto&) { return seat_in_housing(); });
 }
 
 PairInSpace add_in_space(LumpedSystemBuilder& builder, const HelicalPair& pair) {

@@ -26,6 +26,7 @@ struct PairSpace : SpaceSupports {
   double working_angle = 0;                                    ///< rad, transverse
   double working_radius_pinion = 0, working_radius_wheel = 0;  ///< m
   double tilt_inertia_pinion = 0, tilt_inertia_wheel = 0;      ///< kg m^2, about axes across the gears' own
+  double mass_place_pinion = 0, mass_place_wheel = 0;          ///< m, z of the centres of mass
   SpreadFace face;                                             ///< gaps normal to the flanks
 };
 

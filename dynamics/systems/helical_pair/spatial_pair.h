@@ -19,13 +19,12 @@ namespace annulus::dynamics {
 ///
 ///   delta(z) = n . [u_1 + phi_1 x rho_1(z) - u_2 - phi_2 x rho_2(z)]
 struct SpatialPair {
-  double base_helix_angle = 0;  ///< rad, as in HelicalPair
-  double working_angle = 0;     ///< rad, transverse
-  /// m: of the base circle of the pinion, and of the pitch points from the axes.
-  double base_radius_pinion = 0, working_radius_pinion = 0, working_radius_wheel = 0;
-  double pinion_torque = 0;  ///< N m, positive
-  double stiffness = 0;      ///< N/m along the normal, of the mesh, spread evenly over the face
-  SpreadFace face;           ///< gaps normal to the flanks
+  double base_helix_angle = 0;                                 ///< rad, as in HelicalPair
+  double working_angle = 0;                                    ///< rad, transverse
+  double working_radius_pinion = 0, working_radius_wheel = 0;  ///< m, of the pitch points from the axes
+  double pinion_torque = 0;                                    ///< N m, positive
+  double stiffness = 0;  ///< N/m along the normal, of the mesh, spread evenly over the face
+  SpreadFace face;       ///< gaps normal to the flanks
   std::vector<StageBearing> bearings;
   std::vector<StageLoad> loads;
   std::vector<StageWeight> weights;

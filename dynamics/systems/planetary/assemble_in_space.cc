@@ -12,25 +12,26 @@ using Forms = std::vector<LinearForm>;
 
 SpaceBody data_of(const PlanetaryStage& stage, const StageBody& body) {
   const auto& tilt = stage.space->tilt_inertia;
+  const auto& off = stage.space->mass_place;
   const auto spin = [&](double speed) { return stage.rotating_frame ? speed : 0; };
-  const auto central = [&](const CentralBody& b, double across, double speed) {
-    return SpaceBody{body, b.mass, b.inertia, b.radius, across, spin(speed), b.torsional_support};
+  const auto central = [&](const CentralBody& b, double across, double place, double speed) {
+    return SpaceBody{body, b.mass, b.inertia, b.radius, across, place, spin(speed), b.torsional_support};
   };
   switch (body.kind) {
     case Kind::sun:
-      return central(stage.sun, tilt.sun, stage.sun_speed());
+      return central(stage.sun, tilt.sun, off.sun, stage.sun_speed());
     case Kind::ring: {
-      auto ring = central(stage.ring, tilt.ring, stage.ring_speed);
+      auto ring = central(stage.ring, tilt.ring, off.ring, stage.ring_speed);
       if (const auto* coupling = stage.space->coupling_of_ring())
         ring.torsional_support = coupling->stiffness.bottomRightCorner<1, 1>().value();
       return ring;
     }
     case Kind::carrier:
-      return central(stage.carrier, tilt.carrier, stage.carrier_speed);
-    default:
-      return {
-          body, stage.planet.mass, stage.planet.inertia, stage.planet.radius, tilt.planet, spin(stage.planet_speed()),
-          0};
+      return central(stage.carrier, tilt.carrier, off.carrier, stage.carrier_speed);
+    default: {
+      const auto& planet = stage.planet;
+      return {body, planet.mass, planet.inertia, planet.radius, tilt.planet, 0, spin(stage.planet_speed()), 0};
+    }
   }
 }
 

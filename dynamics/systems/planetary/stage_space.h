@@ -17,6 +17,10 @@ struct StageSpace : SpaceSupports {
     double sun = 0, ring = 0, carrier = 0, planet = 0;  ///< kg m^2, about axes across the body's own
   };
   TiltInertia tilt_inertia;
+  struct MassPlace {
+    double sun = 0, ring = 0, carrier = 0;  ///< m, z of the centres of mass; those of planets are in their middle
+  };
+  MassPlace mass_place{};
   /// Throws InputError with name and value of the quantity that cannot be used.
   void check(int planets) const;
 };

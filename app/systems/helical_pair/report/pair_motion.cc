@@ -35,8 +35,10 @@ Section pair_motion_section(const PairRunResult& result) {
   };
   std::vector<Line> axes;
   std::size_t colour = 0;
-  for (const auto& [name, label] : {std::pair{"pinion_y_m", "pinion y"},
+  for (const auto& [name, label] : {std::pair{"pinion_x_m", "pinion x"},
+                                    {"pinion_y_m", "pinion y"},
                                     {"pinion_z_m", "pinion z"},
+                                    {"wheel_x_m", "wheel x"},
                                     {"wheel_y_m", "wheel y"},
                                     {"wheel_z_m", "wheel z"}}) {
     ++colour;
