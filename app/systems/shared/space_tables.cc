@@ -64,8 +64,8 @@ Table bearing_table(SpaceOf of) {
   auto bearing =
       declare_list("bearing",
                    "A bearing, coupling or mount in its place on the axis. A body that has any is held by these "
-                   "alone; others have their radial support of [supports], or the bearings of their gear, and neither "
-                   "move along the axis nor tilt.",
+                   "alone. Others have their support of [supports], or the bearings of their gear. They neither move "
+                   "along the axis nor tilt.",
                    &SpaceInput::bearings);
   bearing.on_request();
   bearing.key("name", &BearingInput::name, "Name in results.").required();
