@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/errors.h"
@@ -94,7 +95,8 @@ Reduced reduced(double force, double moment, double stiffness, double mean, doub
 }
 
 struct ReducedPhase {
-  Reduced straight, tilted;  ///< where a tilt leaves too little at an end, `tilted` is `straight`
+  Reduced straight;
+  std::optional<Reduced> tilted{};  ///< absent where a tilt leaves too little at an end
   double error = 0;
 };
 
@@ -116,8 +118,7 @@ ReducedPhase reduced_at(const FaceLaw& law, double load) {
   try {
     result.tilted = reduced(force[0], (up[1] + down[1]) / 2, stiffness, between[0], between[1]);
   } catch (const SolverError&) {
-    // No faces of such weights: the deviation itself, which is large, stands for what a result may change by.
-    result.tilted = result.straight;
+    result.tilted.reset();  // it serves error bars alone
   }
   return result;
 }
@@ -137,10 +138,10 @@ FaceShape reduced_face(const SolidFace& face, double load, int phases, int threa
   FaceShape shape, tilted;
   for (const auto& phase : list) {
     add(shape, phase.straight);
-    add(tilted, phase.tilted);
+    if (phase.tilted) add(tilted, *phase.tilted);
     shape.error_relative = std::max(shape.error_relative, phase.error);
   }
-  shape.tilted = std::make_shared<const FaceShape>(std::move(tilted));
+  if (tilted.slope.size() == shape.slope.size()) shape.tilted = std::make_shared<const FaceShape>(std::move(tilted));
   return shape;
 }
 

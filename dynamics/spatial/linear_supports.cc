@@ -18,10 +18,6 @@ std::string name_of_body(const StageBody& body) {
   return names[static_cast<std::size_t>(body.kind)];
 }
 
-bool stands_on_carrier(const LinearBearing& bearing) {
-  return bearing.body.kind == StageBody::Kind::planet && bearing.on.kind == StageBody::Kind::carrier;
-}
-
 Eigen::MatrixXd SpaceSupports::whole(const LinearCoupling& coupling) const {
   Eigen::MatrixXd all = coupling.stiffness;
   Eigen::Index first = 0;
@@ -39,9 +35,9 @@ const LinearCoupling* SpaceSupports::coupling_of(std::size_t bearing) const {
   return nullptr;
 }
 
-const LinearCoupling* SpaceSupports::coupling_of_ring() const {
+const LinearCoupling* SpaceSupports::coupling_that_turns(const StageBody& body) const {
   for (const auto& coupling : couplings)
-    if (coupling.turns_ring) return &coupling;
+    if (coupling.turned == body) return &coupling;
   return nullptr;
 }
 
@@ -53,26 +49,17 @@ std::string LinearBearing::element() const {
 
 namespace {
 
-void check_coupling(const SpaceSupports& space, const LinearCoupling& coupling, int planets) {
-  const Eigen::Index size = 5 * std::ssize(coupling.bearings) + (coupling.turns_ring ? 1 : 0);
+void check_coupling(const SpaceSupports& space, const LinearCoupling& coupling) {
+  const Eigen::Index size = 5 * std::ssize(coupling.bearings) + (coupling.turned ? 1 : 0);
   const auto& k = coupling.stiffness;
   if (k.rows() != size || k.cols() != size || !k.allFinite())
     throw InputError(fmt::format("the stiffness of {} between {} bearings has {} x {} finite entries, not {} x {}",
                                  coupling.name, coupling.bearings.size(), k.rows(), k.cols(), size, size));
-  int of_planets = 0;
   for (const std::size_t i : coupling.bearings) {
     const auto& b = space.bearings.at(i);
     if (std::find(b.rigid.begin(), b.rigid.end(), true) != b.rigid.end())
       throw InputError(fmt::format("bearing '{}' is rigid on a {} that gives way", b.name, name_of_body(b.on)));
-    if (!stands_on_carrier(b)) continue;
-    if (b.place != 0 || b.body.planet != of_planets++)
-      throw InputError(fmt::format(
-          "bearing '{}' of planet {} on a carrier that gives way, at z = {} m, is not the one in its middle", b.name,
-          b.body.planet + 1, b.place));
   }
-  if (of_planets > 0 && (of_planets != planets || of_planets != std::ssize(coupling.bearings)))
-    throw InputError(fmt::format("a carrier that gives way has {} bearings, {} of them of its {} planets",
-                                 coupling.bearings.size(), of_planets, planets));
 }
 
 }  // namespace
@@ -89,15 +76,8 @@ void SpreadFace::check(const std::string& name) const {
         fmt::format("the face of the {} has {} gaps for {} places", name, gap.size(), face_places().size()));
 }
 
-void SpaceSupports::check_supports(int planets) const {
-  const auto check_body = [&](const StageBody& body, const std::string& what) {
-    if (body.kind == StageBody::Kind::planet && (body.planet < 0 || body.planet >= planets))
-      throw InputError(fmt::format("{} names planet {} of {}", what, body.planet + 1, planets));
-    if (body.kind == StageBody::Kind::pin) throw InputError(what + " names a pin, which is no body of the dynamics");
-  };
+void SpaceSupports::check_supports() const {
   for (const auto& b : bearings) {
-    check_body(b.body, "bearing '" + b.name + "'");
-    check_body(b.on, "bearing '" + b.name + "'");
     if (!b.stiffness.allFinite() || !b.preload.allFinite() || !b.standing.allFinite() || !std::isfinite(b.place))
       throw InputError(fmt::format("bearing '{}' has a stiffness, force or place that is not finite", b.name));
     constexpr double rounding = 1e-9;
@@ -107,12 +87,11 @@ void SpaceSupports::check_supports(int planets) const {
     if ((b.on.kind != StageBody::Kind::housing && b.standing.any()) || b.standing[2] != 0)
       throw InputError(fmt::format(
           "bearing '{}' has a force that stands in the housing, but is not in it, or acts along the axis", b.name));
-    if (b.on.kind == StageBody::Kind::planet || b.body.kind == StageBody::Kind::housing)
-      throw InputError(fmt::format("bearing '{}' supports the housing or stands on a planet", b.name));
+    if (b.body.kind == StageBody::Kind::housing)
+      throw InputError(fmt::format("bearing '{}' supports the housing", b.name));
   }
-  for (const auto& coupling : couplings) check_coupling(*this, coupling, planets);
+  for (const auto& coupling : couplings) check_coupling(*this, coupling);
   const auto check_load = [&](const StageBody& body, bool finite) {
-    check_body(body, "a load");
     if (body.kind == StageBody::Kind::housing || !finite)
       throw InputError(fmt::format("a load on the {} is not finite or acts on the housing", name_of_body(body)));
   };

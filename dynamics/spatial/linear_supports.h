@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,10 @@ struct LinearBearing {
   using Stiffness = Eigen::Matrix<double, 5, 5>;
   using Vector = Eigen::Matrix<double, 5, 1>;
   std::string name;
-  StageBody body, on;                       ///< `on`: the housing or a central body
+  StageBody body, on;
   double place = 0;                         ///< m, z
   Stiffness stiffness = Stiffness::Zero();  ///< K, symmetric: N/m, N, N m/rad; 0 in rigid coordinates
-  std::array<bool, 5> rigid{};              ///< these coordinates stay 0; of central bodies only against the housing
+  std::array<bool, 5> rigid{};              ///< these coordinates stay 0
   Vector preload = Vector::Zero();          ///< f: N, N m
   /// A part of f that stands still in the housing, in the axes of the carrier at time 0; of bearings there alone.
   Vector standing = Vector::Zero();
@@ -29,20 +30,17 @@ struct LinearBearing {
   [[nodiscard]] std::string element() const;
 };
 
-/// Whether it holds a planet on the carrier.
-[[nodiscard]] bool stands_on_carrier(const LinearBearing& bearing);
-
-/// Bearings that act on each other through what they stand on: planets through a carrier, others through the housing.
+/// Bearings that act on each other through what they stand on, as planets do through a carrier.
 struct LinearCoupling {
   std::string name;                   ///< among springs
-  std::vector<std::size_t> bearings;  ///< numbers in StageSpace::bearings; none is rigid
+  std::vector<std::size_t> bearings;  ///< numbers in SpaceSupports::bearings; none is rigid
   /// Between the coordinates of different bearings, 5 each: N/m, N, N m/rad. The blocks of own coordinates are zero:
   /// bearings contain them.
   Eigen::MatrixXd stiffness;
-  /// One more coordinate, with its own entry: the rotation of the ring as a displacement on its base circle (m). It is
-  /// then the torsional support of the ring, on which it acts with -(K d + ring_preload).
-  bool turns_ring = false;
-  double ring_preload = 0;  ///< N
+  /// A body with one more coordinate at the end, and its own entry: its rotation as a displacement on its radius (m).
+  /// The coupling is then its torsional support and acts on it with -(K d + turning_preload).
+  std::optional<StageBody> turned{};
+  double turning_preload = 0;  ///< N
 };
 
 /// Force (N) in the middle of the face and moment (N m) on a body, in its axes.
@@ -61,21 +59,20 @@ struct StandingLoad {
 /// Bearings and loads of bodies that move along the axis and tilt, for small motions.
 struct SpaceSupports {
   std::vector<LinearBearing> bearings{};
-  /// That of planets, if any, is between one bearing of each, in its middle.
   std::vector<LinearCoupling> couplings{};
   std::vector<SpaceLoad> loads{};
   std::vector<StandingLoad> standing_loads{};
 
   /// Whether forces change as the carrier turns past the housing.
   [[nodiscard]] bool depends_on_carrier_angle() const;
-  /// Throws InputError with name and value of the quantity that cannot be used. `planets`: their number, 0 of a pair.
-  void check_supports(int planets) const;
+  /// Throws InputError with name and value of the quantity that cannot be used.
+  void check_supports() const;
   /// The stiffness of bearings and between them, in the coordinates of a coupling.
   [[nodiscard]] Eigen::MatrixXd whole(const LinearCoupling& coupling) const;
   /// The one that has the bearing; null: none.
   [[nodiscard]] const LinearCoupling* coupling_of(std::size_t bearing) const;
-  /// The one that turns the ring; null: none.
-  [[nodiscard]] const LinearCoupling* coupling_of_ring() const;
+  /// The one that is the torsional support of a body; null: none.
+  [[nodiscard]] const LinearCoupling* coupling_that_turns(const StageBody& body) const;
 };
 
 /// A mesh along its face.
@@ -83,8 +80,7 @@ struct SpreadFace {
   double width = 0, middle = 0;  ///< m, of the common face; `middle`: its z
   /// m, of the driving flanks before deformation, at face_places(); empty: none.
   std::vector<double> gap{};
-  /// Of solid gears. Null: the law of the mesh is spread evenly.
-  std::shared_ptr<const FaceShape> shape{};
+  std::shared_ptr<const FaceShape> shape{};  ///< of solid gears; null: the law of the mesh is spread evenly
 
   /// Throws InputError with the value that cannot be used. `name`: "sun meshes".
   void check(const std::string& name) const;

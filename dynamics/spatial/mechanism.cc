@@ -172,7 +172,7 @@ class Mechanism::Solver {
 
   /// What is left of a bearing in its play lets a body go whose load nothing bears.
   void check_small(const Eigen::VectorXd& motion) const {
-    constexpr double large = 0.1;
+    constexpr double large = 0.1;  // of the bodies: displacements are small beside these
     for (int b = 0; b < mechanism_.bodies(); ++b) {
       const Eigen::Vector3d moved = motion.segment<3>(6 * static_cast<Eigen::Index>(b));
       Eigen::Index along = 0;

@@ -16,9 +16,7 @@ namespace annulus::dynamics {
 
 namespace {
 
-using Kind = StageBody::Kind;
 using Forms = std::vector<LinearForm>;
-using Stiffness = LinearBearing::Stiffness;
 using Vector = LinearBearing::Vector;
 
 /// Equations rows x d = right between the coordinates of a body, solved for as many of them as there are equations.
@@ -100,9 +98,6 @@ class SpaceBodies {
       if (b.body != body.body) continue;
       for (Eigen::Index i = 0; i < 5; ++i) {
         if (!b.rigid.at(static_cast<std::size_t>(i))) continue;
-        if (b.on.kind != Kind::housing && body.body.kind != Kind::planet)
-          throw InputError(fmt::format("bearing '{}' of the {} stands rigidly on the {}: give it a stiffness", b.name,
-                                       name, name_of_body(b.on)));
         const Vector row = to_place(b.place).row(i);
         LinearForm right;
         const auto on = seat_(forms_, body.body, b.on);
@@ -128,7 +123,7 @@ class SpaceBodies {
     if (body.torsional_support != rigid) {
       forms.u = builder_.add_dof(name + "_u");
       builder_.add_mass(forms.u, rotating);
-      const bool coupled = body.body.kind == Kind::ring && supports_.coupling_of_ring();
+      const bool coupled = supports_.coupling_that_turns(body.body) != nullptr;
       builder_.add_spring(forms.u, coupled ? 0 : body.torsional_support,
                           critical_share(frame_.support_damping_ratio, body.torsional_support, rotating),
                           name + "_support_u");
@@ -143,7 +138,7 @@ class SpaceBodies {
   }
   [[nodiscard]] const SpaceBody& data_of(const StageBody& body) const { return bodies_[number(body)]; }
 
-  /// Of a bearing in the middle of its body.
+  /// Coordinates of a bearing's body in its middle.
   [[nodiscard]] Forms motion_of(const LinearBearing& bearing) const {
     return against(forms_[number(bearing.body)], seat_(forms_, bearing.body, bearing.on));
   }
@@ -174,7 +169,7 @@ class SpaceBodies {
     for (const auto& [stiffness, form] :
          squares(supports_.whole(coupling), coordinates_of(coupling), length_of(coupling)))
       builder_.add_spring(form, stiffness, 0, coupling.name);
-    if (coupling.turns_ring) builder_.add_load(forms_[number({Kind::ring})].u, -coupling.ring_preload);
+    if (coupling.turned) builder_.add_load(forms_[number(*coupling.turned)].u, -coupling.turning_preload);
   }
 
   [[nodiscard]] Forms coordinates_of(const LinearCoupling& coupling) const {
@@ -182,7 +177,7 @@ class SpaceBodies {
     for (const std::size_t i : coupling.bearings)
       for (auto& form : at_place(motion_of(supports_.bearings[i]), supports_.bearings[i].place))
         all.push_back(std::move(form));
-    if (coupling.turns_ring) all.push_back(forms_[number({Kind::ring})].u);
+    if (coupling.turned) all.push_back(forms_[number(*coupling.turned)].u);
     return all;
   }
 
@@ -229,50 +224,99 @@ class SpaceBodies {
     return list;
   }
 
-  /// Every mode of a body on its bearings has the damping ratio of the supports: C = 2 zeta M^1/2 (M^-1/2 K M^-1/2)^1/2
-  /// M^1/2. Of a bearing in the middle these are the dampers of the plane.
-  void add_dampers() {
-    const auto& bearings = supports_.bearings;
-    for (std::size_t i = 0; i < bearings.size(); ++i) {
-      const auto& first = bearings[i];
-      const auto same = [&](const auto& b) { return b.body == first.body && b.on == first.on; };
-      if (std::any_of(bearings.begin(), bearings.begin() + static_cast<std::ptrdiff_t>(i), same)) continue;
-      if (stands_on_carrier(first) && supports_.coupling_of(i)) continue;
-      Stiffness sum = Stiffness::Zero();
-      for (const auto& b : bearings)
-        if (same(b)) sum += moved_along_axis(b.stiffness, b.place);
-      const SpaceBody& data = data_of(first.body);
-      const Eigen::MatrixXd damping = damping_of(sum, data);
-      const auto d = motion_of(first);
-      // In the housing the turning frame adds Omega x (-y, x).
-      const Forms turned{(-1.0) * d[1], d[0], {}, (-1.0) * d[4], d[3]};
-      for (const auto& [value, form] : squares(damping, d, data.radius))
-        builder_.add_spring(form, 0, value, name_of_body(first.body) + "_dampers");
-      if (first.on.kind != Kind::housing) continue;
-      for (Eigen::Index r = 0; r < 5; ++r)
-        for (Eigen::Index c = 0; c < 5; ++c)
-          if (damping(r, c) != 0)
-            builder_.add_circulatory(d[static_cast<std::size_t>(r)], turned[static_cast<std::size_t>(c)],
-                                     damping(r, c) * frame_.speed);
+  /// Bodies on the same one that act on each other through it.
+  struct Together {
+    StageBody on;
+    std::vector<StageBody> bodies;
+
+    [[nodiscard]] Eigen::Index first_of(const StageBody& body) const {
+      return 5 * (std::find(bodies.begin(), bodies.end(), body) - bodies.begin());
     }
+    [[nodiscard]] bool has(const LinearBearing& b) const {
+      return b.on == on && std::find(bodies.begin(), bodies.end(), b.body) != bodies.end();
+    }
+  };
+
+  [[nodiscard]] std::vector<Together> bodies_together() const {
+    std::vector<Together> list;
+    for (const auto& b : supports_.bearings)
+      if (std::none_of(list.begin(), list.end(), [&](const auto& t) { return t.has(b); }))
+        list.push_back({b.on, {b.body}});
     for (const auto& coupling : supports_.couplings) {
-      if (!stands_on_carrier(bearings[coupling.bearings.front()])) continue;
-      for (const auto& [value, form] : squares(damping_of(supports_.whole(coupling), data_of({Kind::planet, 0})),
-                                               coordinates_of(coupling), length_of(coupling)))
-        builder_.add_spring(form, 0, value, "planet_dampers");
+      const auto with = [&](std::size_t i) {
+        return std::find_if(list.begin(), list.end(), [&](const auto& t) { return t.has(supports_.bearings[i]); });
+      };
+      for (const std::size_t i : coupling.bearings) {
+        const auto first = with(coupling.bearings.front()), other = with(i);
+        if (first == other) continue;
+        first->bodies.insert(first->bodies.end(), other->bodies.begin(), other->bodies.end());
+        list.erase(other);
+      }
     }
+    return list;
   }
 
-  /// Of equal bodies, five coordinates each.
-  [[nodiscard]] Eigen::MatrixXd damping_of(const Eigen::MatrixXd& stiffness, const SpaceBody& data) const {
-    Eigen::VectorXd root(stiffness.rows());
-    for (Eigen::Index i = 0; i < root.size(); ++i) root[i] = std::sqrt(i % 5 < 3 ? data.mass : data.tilt_inertia);
-    const Eigen::VectorXd inverse = root.cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * stiffness *
-                                                                inverse.asDiagonal());
-    const Eigen::MatrixXd rates = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
-                                  solver.eigenvectors().transpose();
-    return 2 * frame_.support_damping_ratio * root.asDiagonal() * rates * root.asDiagonal();
+  /// In the middles of the bodies, 5 coordinates each.
+  [[nodiscard]] Eigen::MatrixXd stiffness_of(const Together& together) const {
+    const Eigen::Index size = 5 * std::ssize(together.bodies);
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
+    for (const auto& b : supports_.bearings)
+      if (together.has(b)) {
+        const auto first = together.first_of(b.body);
+        sum.block<5, 5>(first, first) += moved_along_axis(b.stiffness, b.place);
+      }
+    for (const auto& coupling : supports_.couplings)
+      for (std::size_t i = 0; i < coupling.bearings.size(); ++i)
+        for (std::size_t j = 0; j < coupling.bearings.size(); ++j) {
+          const auto &a = supports_.bearings[coupling.bearings[i]], &b = supports_.bearings[coupling.bearings[j]];
+          if (!together.has(a)) continue;
+          const auto from = 5 * static_cast<Eigen::Index>(i), to = 5 * static_cast<Eigen::Index>(j);
+          sum.block<5, 5>(together.first_of(a.body), together.first_of(b.body)) +=
+              to_place(a.place).transpose() * coupling.stiffness.block<5, 5>(from, to) * to_place(b.place);
+        }
+    return sum;
+  }
+
+  [[nodiscard]] Eigen::MatrixXd mass_of(const Together& together) const {
+    const Eigen::Index size = 5 * std::ssize(together.bodies);
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, size);
+    for (const auto& body : together.bodies) {
+      const auto& data = data_of(body);
+      auto own = all.block<5, 5>(together.first_of(body), together.first_of(body));
+      own.diagonal() << data.mass, data.mass, data.mass, data.tilt_inertia, data.tilt_inertia;
+      own(0, 4) = own(4, 0) = data.mass * data.mass_place;
+      own(1, 3) = own(3, 1) = -data.mass * data.mass_place;
+    }
+    return all;
+  }
+
+  /// Every mode of bodies on their bearings has the damping ratio of the supports: C = 2 zeta M^1/2 (M^-1/2 K
+  /// M^-1/2)^1/2 M^1/2. With a bearing in the middle these are the dampers of the plane.
+  void add_dampers() {
+    for (const auto& together : bodies_together()) {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> mass(mass_of(together));
+      const Eigen::MatrixXd root = mass.operatorSqrt(), inverse = mass.operatorInverseSqrt();
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(inverse * stiffness_of(together) * inverse);
+      const Eigen::MatrixXd rates = modes.eigenvectors() * modes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
+                                    modes.eigenvectors().transpose();
+      const Eigen::MatrixXd damping = 2 * frame_.support_damping_ratio * root * rates * root;
+      Forms all, turned;
+      for (const auto& body : together.bodies) {
+        const auto d = against(forms_[number(body)], seat_(forms_, body, together.on));
+        all.insert(all.end(), d.begin(), d.end());
+        // In the housing the turning frame adds Omega x (-y, x).
+        turned.insert(turned.end(), {(-1.0) * d[1], d[0], {}, (-1.0) * d[4], d[3]});
+      }
+      const auto name = name_of_body(together.bodies.front()) + "_dampers";
+      for (const auto& [value, form] : squares(damping, all, data_of(together.bodies.front()).radius))
+        builder_.add_spring(form, 0, value, name);
+      if (together.on.kind != StageBody::Kind::housing) continue;
+      for (Eigen::Index r = 0; r < damping.rows(); ++r)
+        for (Eigen::Index c = 0; c < damping.cols(); ++c)
+          if (damping(r, c) != 0)
+            builder_.add_circulatory(all[static_cast<std::size_t>(r)], turned[static_cast<std::size_t>(c)],
+                                     damping(r, c) * frame_.speed);
+    }
   }
 
   LumpedSystemBuilder& builder_;

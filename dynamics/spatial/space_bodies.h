@@ -39,7 +39,7 @@ using SeatOf = std::function<std::vector<LinearForm>(const std::vector<BodyForms
 
 /// Adds bodies with their bearings and loads, in this order. DOFs of each: x, y, z, tiltx, tilty (radius x tilt, m) as
 /// far as no bearing holds them rigidly, and u. A spring carries the name of its body and its bearing. Throws
-/// InputError for bearings that stand rigidly on a body other than the housing, planets' on the carrier.
+/// InputError where a body has less tilting inertia than its mass beside its middle.
 [[nodiscard]] std::vector<BodyForms> add_space_bodies(LumpedSystemBuilder& builder, const SpaceSupports& supports,
                                                       const std::vector<SpaceBody>& bodies, const SpaceFrame& frame,
                                                       const SeatOf& seat);

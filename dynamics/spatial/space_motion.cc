@@ -36,17 +36,17 @@ SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& sy
       motions.middleRows<5>(first) = course(system.bearings[i], series);
       first += 5;
     }
-    if (coupling.turns_ring)
-      for (const auto& [dof, factor] : system.ring_u) motions.row(first) += factor * series.displacement.row(dof);
+    if (coupling.turned)
+      for (const auto& [dof, factor] : system.turned) motions.row(first) += factor * series.displacement.row(dof);
     const Eigen::MatrixXd forces = -coupling.stiffness * motions;
     first = 0;
     for (const std::size_t i : coupling.bearings) {
       from_others[i] = forces.middleRows<5>(first);
       first += 5;
     }
-    if (coupling.turns_ring)
-      result.ring_torque =
-          system.ring_radius * (forces.row(first).transpose().array() - coupling.ring_preload).matrix();
+    if (coupling.turned)
+      result.turning_torque =
+          system.turned_radius * (forces.row(first).transpose().array() - coupling.turning_preload).matrix();
   }
   for (std::size_t i = 0; i < supports.bearings.size(); ++i) {
     const auto& b = supports.bearings[i];

@@ -25,18 +25,18 @@ struct SpaceMotion {
     /// m, z of the resultant from the middle of the common face; not known of light forces.
     Eigen::VectorXd place;
   };
-  std::vector<Bearing> bearings;  ///< those that give way
-  Eigen::VectorXd ring_torque{};  ///< N m, of the housing on the ring, where LinearCoupling::turns_ring
-  std::vector<Mesh> meshes;       ///< in their order
+  std::vector<Bearing> bearings;     ///< those that give way
+  Eigen::VectorXd turning_torque{};  ///< N m, on the body that a coupling turns (LinearCoupling::turned)
+  std::vector<Mesh> meshes;          ///< in their order
 };
 
 /// The system that a series belongs to.
 struct SpaceSystem {
   std::vector<std::vector<LinearForm>> bearings{};  ///< coordinates of each in its place
-  LinearForm ring_u{};
-  double ring_radius = 0;                  ///< m
-  double carrier_speed = 0;                ///< rad/s
-  std::vector<const SpreadFace*> faces{};  ///< of each mesh
+  LinearForm turned{};                              ///< the coordinate of LinearCoupling::turned
+  double turned_radius = 0;                         ///< m, of that body
+  double carrier_speed = 0;                         ///< rad/s
+  std::vector<const SpreadFace*> faces{};           ///< of each mesh
 };
 /// `series`: forces of all meshes, then those of their tilts (spread_over_face()).
 [[nodiscard]] SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& system,

@@ -158,6 +158,33 @@ BOOST_AUTO_TEST_CASE(modes_are_those_of_rigid_bodies_with_exact_rotations) {
   }
 }
 
+// Gears in their bearings alone: every mode has the damping ratio of the supports, also about a centre of mass beside
+// the middle.
+BOOST_AUTO_TEST_CASE(modes_in_bearings_have_the_damping_of_supports) {
+  annulus::test::Verification record("Modes of a helical pair in space", "modal damping");
+  auto pair = linear_pair();
+  pair.pinion_speed = 0;
+  pair.bearing_damping_ratio = 0.05;
+  auto made = lumped(pair, spatial(pair, unlike_bearings()));
+  made.space->mass_place_pinion = 0.08;
+  made.space->mass_place_wheel = -0.03;
+  const auto system = assemble(made);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(system.stiffness(), system.mass());
+  const Eigen::MatrixXd damping = modes.eigenvectors().transpose() * system.damping() * modes.eigenvectors();
+  const double fastest = std::sqrt(modes.eigenvalues().maxCoeff());
+  int damped = 0;
+  for (Eigen::Index i = 0; i < damping.rows(); ++i) {
+    const double rate = std::sqrt(std::max(0.0, modes.eigenvalues()[i]));
+    record.near("damping over its fastest rate", "", damping(i, i) / (2 * 0.05 * fastest), rate / fastest, 1e-8,
+                "rounding of the eigenvalues");
+    for (Eigen::Index j = 0; j < i; ++j)
+      record.near("coupling of modes by dampers, over their fastest rate", "", damping(i, j) / (2 * 0.05 * fastest), 0,
+                  1e-8, "rounding of the eigenvalues");
+    damped += rate > 1e-3 * fastest;
+  }
+  BOOST_TEST(damped == 10);  // the gears turn freely
+}
+
 // Two bearings of the pinion share the force of the mesh and its moment by statics, wherever along the face it stands.
 BOOST_AUTO_TEST_CASE(reactions_of_two_bearings) {
   annulus::test::Verification record("Statics of a helical pair in space", "equilibrium of the pinion");

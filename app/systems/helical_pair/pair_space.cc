@@ -13,6 +13,7 @@
 #include "app/systems/shared/bearing_words.h"
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/space_input.h"
+#include "app/systems/shared/tilt_inertia.h"
 #include "core/errors.h"
 #include "dynamics/systems/helical_pair/spatial_pair.h"
 
@@ -22,10 +23,14 @@ namespace {
 
 using Body = dynamics::StageBody::Kind;
 
-bool has_bearing(const Scene& scene, Body body, bool radial) {
+bool has_bearing(const Scene& scene, Body body) {
+  const auto& bearings = scene.own<SpaceInput>().bearings;
+  return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
+}
+bool has_radial_bearing(const Scene& scene, Body body) {
   const auto& bearings = scene.own<SpaceInput>().bearings;
   return std::any_of(bearings.begin(), bearings.end(),
-                     [&](const auto& b) { return b.body == body && (!radial || b.holds_radially()); });
+                     [&](const auto& b) { return b.body == body && b.holds_radially(); });
 }
 
 /// The pair without its face and its stiffness.
@@ -41,8 +46,8 @@ dynamics::SpatialPair spatial_pair(const Scene& scene, const PairGeometry& geome
   for (const auto& input : space.bearings) pair.bearings.push_back(stage_bearing(input, {input.body}, input.name));
   // A gear without bearings has those of its table in the middle; it tilts only where others hold it.
   for (const auto& [body, gear] : {std::pair{Body::pinion, &scene.pinion}, {Body::wheel, &scene.wheel}}) {
-    if (has_bearing(scene, body, true)) continue;
-    const bool any = has_bearing(scene, body, false);
+    if (has_radial_bearing(scene, body)) continue;
+    const bool any = has_bearing(scene, body);
     dynamics::StageBearing support;
     support.name = "support";
     support.body = {body};
@@ -60,17 +65,12 @@ dynamics::SpatialPair spatial_pair(const Scene& scene, const PairGeometry& geome
   return pair;
 }
 
-/// Across the axis: given, or that of a uniform cylinder.
-double tilt_inertia(const Scene& scene, const std::optional<double>& given, const PairGearInput& gear, double place,
-                    const char* name) {
-  const double about_axis = *pair_inertia(scene, gear);
-  if (given && *given < about_axis / 2)
-    throw InputError(with_place(
-        scene, fmt::format("tilt_inertia.{0}_kg_m2 = {1:g}: less than half of {0}.inertia_kg_m2 = {2:g}, which no body "
-                           "has; it is that about an axis across the body's own",
-                           name, *given, about_axis)));
-  const double width = face_width_of(scene, gear);
-  return given.value_or(about_axis / 2 + *gear.mass * (width * width / 12 + place * place));
+/// Before its mesh is solved.
+dynamics::SpatialPair unsolved_pair(const Scene& scene, const PairGeometry& geometry) {
+  auto pair = spatial_pair(scene, geometry);
+  pair.face = motion_face(geometry.gears, scene.pinion_wheel, nullptr, scene.errors.pinion_wheel_misalignment,
+                          GapsAlong::normal);
+  return pair;
 }
 
 }  // namespace
@@ -79,10 +79,7 @@ bool pair_in_space(const Scene& scene) { return scene.own<SpaceInput>().any(); }
 
 std::string why_gears_tilt(const Scene& scene, const PairGeometry& geometry) {
   if (!pair_in_space(scene)) return {};
-  auto pair = spatial_pair(scene, geometry);
-  pair.face = motion_face(geometry.gears, scene.pinion_wheel, nullptr, scene.errors.pinion_wheel_misalignment,
-                          GapsAlong::normal);
-  const auto reasons = pair.reasons_for_space();
+  const auto reasons = unsolved_pair(scene, geometry).reasons_for_space();
   return reasons.empty() ? "" : "the gears tilt: " + reasons.front();
 }
 
@@ -90,14 +87,19 @@ void put_in_space(dynamics::HelicalPair& pair, const Scene& scene, const PairGeo
                   const std::shared_ptr<const FaceShape>& face) {
   const auto& tilting = scene.own<SpaceInput>().tilt_inertia;
   const auto gravity = scene.own<SpaceInput>().gravity.value_or(GravityInput{});
+  const auto tilting_of = [&](const char* name, const std::optional<double>& given, const PairGearInput& gear,
+                              double centre) {
+    return tilt_inertia(scene,
+                        {name, given, *gear.mass, *pair_inertia(scene, gear), face_width_of(scene, gear), centre});
+  };
+  const double of_pinion = tilting_of("pinion", tilting.pinion, scene.pinion, gravity.pinion);
+  const double of_wheel = tilting_of("wheel", tilting.wheel, scene.wheel, gravity.wheel);
   auto spatial = spatial_pair(scene, geometry);
   spatial.stiffness = dynamics::mean_stiffness(pair.mesh);
   spatial.face =
       motion_face(geometry.gears, scene.pinion_wheel, face, scene.errors.pinion_wheel_misalignment, GapsAlong::normal);
   try {
-    pair.space = dynamics::pair_about_equilibrium(
-        spatial, tilt_inertia(scene, tilting.pinion, scene.pinion, gravity.pinion, "pinion"),
-        tilt_inertia(scene, tilting.wheel, scene.wheel, gravity.wheel, "wheel"));
+    pair.space = dynamics::pair_about_equilibrium(spatial, of_pinion, of_wheel);
   } catch (const InputError& error) {
     throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
   }
@@ -107,9 +109,7 @@ void put_in_space(dynamics::HelicalPair& pair, const Scene& scene, const PairGeo
 
 std::vector<DofPlan> pair_dofs_in_space(const Scene& scene, const PairGeometry& geometry, std::vector<DofPlan> plane) {
   if (!pair_in_space(scene)) return plane;
-  auto pair = spatial_pair(scene, geometry);
-  pair.face = motion_face(geometry.gears, scene.pinion_wheel, nullptr, scene.errors.pinion_wheel_misalignment,
-                          GapsAlong::normal);
+  const auto pair = unsolved_pair(scene, geometry);
   const bool leaves_plane = !pair.reasons_for_space().empty();
   std::vector<DofPlan> list;
   for (const auto& [body, name] : {std::pair{Body::pinion, std::string("pinion")}, {Body::wheel, "wheel"}}) {
@@ -137,11 +137,11 @@ std::vector<Warning> pair_space_warnings(const Scene& scene) {
   for (const auto& [body, name, gear, tilting] :
        {std::tuple{Body::pinion, "pinion", &scene.pinion, &space.tilt_inertia.pinion},
         {Body::wheel, "wheel", &scene.wheel, &space.tilt_inertia.wheel}}) {
-    if (!has_bearing(scene, body, false)) held.emplace_back(name);
+    if (!has_bearing(scene, body)) held.emplace_back(name);
     if (!*tilting) assumed.push_back(fmt::format("tilt_inertia.{}_kg_m2", name));
     const auto key = fmt::format("{}.bearing_transverse_N_per_m", name);
     const auto* input = scene.find(key);
-    if (input != nullptr && input->origin == Origin::scene && has_bearing(scene, body, true))
+    if (input != nullptr && input->origin == Origin::scene && has_radial_bearing(scene, body))
       list.push_back({"support_replaced", Severity::warning,
                       fmt::format("{} is left out: the {} is held by its [[bearing]] tables alone", key, name)});
   }
@@ -150,9 +150,7 @@ std::vector<Warning> pair_space_warnings(const Scene& scene) {
                     fmt::format("no [[bearing]] holds the {}: it lies in the bearings of its own table and is assumed "
                                 "not to tilt",
                                 fmt::join(held, ", "))});
-  std::vector<std::string> bent;
-  for (const auto& b : space.bearings)
-    if (bends(b)) bent.push_back("'" + b.name + "'");
+  const auto bent = bent_bearings(space.bearings);
   if (!bent.empty()) list.push_back(bearings_linear(bent, ""));
   if (!assumed.empty()) list.push_back(tilt_inertia_assumed(assumed));
   return list;

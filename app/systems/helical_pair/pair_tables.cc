@@ -10,6 +10,8 @@ namespace annulus::app {
 
 namespace {
 
+using Body = dynamics::StageBody::Kind;
+
 Table pair_stage_table() {
   Declarations stage("stage", "", &Scene::stage);
   declare_centre_distance(stage)
@@ -178,7 +180,9 @@ std::vector<Table> pair_tables() {
                                pair_errors_table(),
                                manufacturing_error_table(),
                                transmission_error_table()};
-  auto space = space_tables(SpaceOf::pair);
+  auto space = space_tables({.bodies = {{"pinion", Body::pinion, &GravityInput::pinion, &TiltInertiaInput::pinion},
+                                        {"wheel", Body::wheel, &GravityInput::wheel, &TiltInertiaInput::wheel}},
+                             .frames = SpaceSystem::Frames::housing});
   std::move(space.begin(), space.end(), std::back_inserter(tables));
   return tables;
 }

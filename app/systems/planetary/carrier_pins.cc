@@ -7,8 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "app/systems/planetary/point_stiffness.h"
 #include "app/systems/planetary/stage_supports.h"
-#include "app/systems/shared/point_stiffness.h"
+#include "app/systems/planetary/structure_input.h"
 #include "app/systems/shared/space_input.h"
 #include "core/errors.h"
 #include "dynamics/spatial/carrier_structure.h"
@@ -53,7 +54,7 @@ Eigen::MatrixXd turned(const Eigen::MatrixXd& of_carrier, const std::vector<doub
 
 std::optional<Eigen::MatrixXd> pins_in_space(const Scene& scene, const std::vector<double>& planet_angles,
                                              double radius) {
-  const auto& structure = scene.own<SpaceInput>().carrier_structure;
+  const auto& structure = scene.own<StructureInput>().carrier;
   if (structure && structure->file) return turned(structure->stiffness, planet_angles);
   if (structure) {
     dynamics::TwoWallCarrier carrier;

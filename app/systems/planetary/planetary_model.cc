@@ -4,11 +4,11 @@
 
 #include "app/results/cached_value.h"
 #include "app/systems/planetary/ring_structures.h"
+#include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/mesh_names.h"
-#include "app/systems/shared/space_input.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "dynamics/systems/planetary/study_point.h"
@@ -36,7 +36,7 @@ std::optional<fem::PlanetRollers> rollers_of(const Scene& scene, const geometry:
 
 /// Load moves along the face of gears that tilt.
 std::string why_it_tilts(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
-  if (!scene.own<SpaceInput>().any()) return {};
+  if (!moves_in_space(scene)) return {};
   const auto reasons = spatial_frame(scene, geometry, ring).reasons_for_space();
   return reasons.empty() ? "" : "the gears tilt: " + reasons.front();
 }

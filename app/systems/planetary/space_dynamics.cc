@@ -13,9 +13,11 @@
 #include "app/scene/input_place.h"
 #include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/stage_members.h"
+#include "app/systems/planetary/structure_input.h"
 #include "app/systems/shared/bearing_words.h"
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/space_input.h"
+#include "app/systems/shared/tilt_inertia.h"
 #include "core/errors.h"
 #include "core/log.h"
 #include "dynamics/systems/planetary/working_point.h"
@@ -26,34 +28,17 @@ namespace annulus::app {
 
 namespace {
 
-/// A uniform cylinder of the body's mass and moment of inertia.
-double of_cylinder(double mass, double inertia, double width) { return inertia / 2 + mass * width * width / 12; }
-
-dynamics::StageSpace::TiltInertia tilt_inertia(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
+dynamics::StageSpace::TiltInertia tilt_inertias(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
   const auto& given = scene.own<SpaceInput>().tilt_inertia;
   const auto& set = geometry.rings.at(ring).set;
   const auto& input = scene.rings.at(ring);
-  for (const auto& [tilting, about_axis, name] : {std::tuple{&given.sun, *scene.sun.inertia, "sun"},
-                                                  {&given.ring, *input.inertia, "ring"},
-                                                  {&given.carrier, *scene.carrier.inertia, "carrier"},
-                                                  {&given.planet, *scene.planet.inertia, "planet"}})
-    if (*tilting && **tilting < about_axis / 2)
-      throw InputError(
-          with_place(scene, fmt::format("tilt_inertia.{0}_kg_m2 = {1:g}: less than half of {0}.inertia_kg_m2 "
-                                        "= {2:g}, which no body has; it is that about an axis across the "
-                                        "body's own",
-                                        name, **tilting, about_axis)));
-  const auto width = [](const geometry::Gear& gear) { return gear.parameters().face_width; };
   const auto g = scene.own<SpaceInput>().gravity.value_or(GravityInput{});
-  // About the middle of the stage, of cylinders whose middle is the centre of mass.
-  const auto beside = [](double mass, double place) { return mass * place * place; };
-  return {
-      given.sun.value_or(of_cylinder(*scene.sun.mass, *scene.sun.inertia, width(set.sun())) +
-                         beside(*scene.sun.mass, g.sun)),
-      given.ring.value_or(of_cylinder(*input.mass, *input.inertia, width(set.ring())) + beside(*input.mass, g.ring)),
-      given.carrier.value_or(of_cylinder(*scene.carrier.mass, *scene.carrier.inertia, width(set.planet())) +
-                             beside(*scene.carrier.mass, g.carrier)),
-      given.planet.value_or(of_cylinder(*scene.planet.mass, *scene.planet.inertia, width(set.planet())))};
+  const auto width = [](const geometry::Gear& gear) { return gear.parameters().face_width; };
+  const auto of = [&](const TiltingBody& body) { return tilt_inertia(scene, body); };
+  return {of({"sun", given.sun, *scene.sun.mass, *scene.sun.inertia, width(set.sun()), g.sun}),
+          of({"ring", given.ring, *input.mass, *input.inertia, width(set.ring()), g.ring}),
+          of({"carrier", given.carrier, *scene.carrier.mass, *scene.carrier.inertia, width(set.planet()), g.carrier}),
+          of({"planet", given.planet, *scene.planet.mass, *scene.planet.inertia, width(set.planet())})};
 }
 
 bool depends_on_direction(const BearingInput& b) {
@@ -63,7 +48,10 @@ bool depends_on_direction(const BearingInput& b) {
 
 }  // namespace
 
-bool moves_in_space(const Scene& scene) { return scene.own<SpaceInput>().any(); }
+bool moves_in_space(const Scene& scene) {
+  const auto& structure = scene.own<StructureInput>();
+  return scene.own<SpaceInput>().any() || structure.carrier || structure.housing;
+}
 
 bool has_radial_bearing(const Scene& scene, dynamics::StageBody::Kind body) {
   const auto& bearings = scene.own<SpaceInput>().bearings;
@@ -82,7 +70,7 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
   for (const auto& [face, mesh] : {std::pair{&spatial.sun_face, &sun_mesh}, {&spatial.ring_face, &ring_mesh}})
     if (mesh->face) face->symmetric = fem::asymmetry_of_face(*mesh->model.problem).empty();
   try {
-    stage.space = dynamics::space_about_equilibrium(spatial, tilt_inertia(scene, geometry, ring));
+    stage.space = dynamics::space_about_equilibrium(spatial, tilt_inertias(scene, geometry, ring));
   } catch (const InputError& error) {
     throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
   }
@@ -100,22 +88,21 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
 std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeometry& geometry) {
   const auto& space = scene.own<SpaceInput>();
   std::vector<Warning> list;
-  if (!space.any()) return list;
+  if (!moves_in_space(scene)) return list;
   const auto frame = spatial_frame(scene, geometry, 0);
   if (space.gravity && space.gravity->planet != 0)
     list.push_back({"mass_in_middle", Severity::warning,
                     "the inertia of planets acts in the middle of their face in the dynamics, their weight at "
                     "gravity.planet_at_mm"});
-  std::vector<std::string> bent, directed;
+  std::vector<std::string> bent = bent_bearings(space.bearings), directed;
   const auto in_housing = [&](const BearingInput& b) {
-    if (!space.housing) return false;
-    const auto& points = space.housing->seats.points;
+    const auto& housing = scene.own<StructureInput>().housing;
+    if (!housing) return false;
+    const auto& points = housing->seats.points;
     return std::find(points.begin(), points.end(), column_of(b.name)) != points.end();
   };
-  for (const auto& b : space.bearings) {
-    if (bends(b)) bent.push_back("'" + b.name + "'");
+  for (const auto& b : space.bearings)
     if (depends_on_direction(b) || in_housing(b)) directed.push_back("'" + b.name + "'");
-  }
   if (scene.supports.planet_clearance > 0 && !has_radial_bearing(scene, dynamics::StageBody::Kind::planet))
     bent.emplace_back("supports.planet_clearance_um");
   if (!bent.empty()) list.push_back(bearings_linear(bent, "; annulus statics has its whole law"));

@@ -14,6 +14,7 @@
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/stage_supports.h"
+#include "app/systems/planetary/structure_input.h"
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/space_input.h"
 #include "core/errors.h"
@@ -55,7 +56,7 @@ void add_bearings(const Scene& scene, dynamics::SpatialStage& stage) {
 
 /// After add_bearings().
 void add_housing(const Scene& scene, dynamics::SpatialStage& stage) {
-  const auto& input = scene.own<SpaceInput>().housing;
+  const auto& input = scene.own<StructureInput>().housing;
   if (!input) return;
   dynamics::HousingStructure housing{{}, input->seats.stiffness};
   for (const auto& point : input->seats.points)

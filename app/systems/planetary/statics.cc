@@ -11,6 +11,7 @@
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/space_stage.h"
+#include "app/systems/planetary/structure_input.h"
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/space_input.h"
 #include "core/errors.h"
@@ -129,7 +130,7 @@ void mirror(StaticTurn& turn) {
 /// Places and phases that show something. One period of the housing is smooth; several at once, as of eccentric gears,
 /// need more places to meet their worst coincidence.
 StaticSchedule schedule_of(const Scene& scene, const dynamics::SpatialStage& stage, const StageFaces& faces) {
-  const auto& wanted = scene.own<SpaceInput>().statics;
+  const auto& wanted = scene.own<StructureInput>().statics;
   const bool in_cycle = varies_in_cycle(scene.sun_planet) || varies_in_cycle(scene.ring_planet);
   const bool solid = faces.sun || faces.ring;
   const int usual_phases = solid ? 4 : 8, period = dynamics::period_of(stage);

@@ -11,6 +11,7 @@
 #include "app/scene/scene_declare.h"
 #include "app/scene/scene_files.h"
 #include "app/systems/planetary/carrier_pins.h"
+#include "app/systems/planetary/structure_input.h"
 #include "app/systems/shared/space_input.h"
 #include "app/systems/shared/space_tables.h"
 #include "core/errors.h"
@@ -30,7 +31,7 @@ Table carrier_structure_table() {
       "What the carrier gives way, beside the pins: webs between two rigid walls, in which the pins are clamped, or a "
       "stiffness matrix. The wall with the shaft is the body of the carrier; the other one winds up against it.",
       [](Scene& s, std::size_t) -> CarrierStructureInput& {
-        auto& c = s.own<SpaceInput>().carrier_structure;
+        auto& c = s.own<StructureInput>().carrier;
         return c ? *c : c.emplace();
       });
   structure.on_request();
@@ -68,7 +69,7 @@ Table carrier_structure_table() {
 Table housing_table() {
   Declarations<HousingInput> housing("housing", "What the housing gives way behind the bearings that stand on it.",
                                      [](Scene& s, std::size_t) -> HousingInput& {
-                                       auto& h = s.own<SpaceInput>().housing;
+                                       auto& h = s.own<StructureInput>().housing;
                                        return h ? *h : h.emplace();
                                      });
   housing.on_request();
@@ -84,7 +85,7 @@ Table housing_table() {
 Table statics_table() {
   Declarations<StaticsInput> statics(
       "statics", "Positions of annulus statics.",
-      [](Scene& s, std::size_t) -> StaticsInput& { return s.own<SpaceInput>().statics; });
+      [](Scene& s, std::size_t) -> StaticsInput& { return s.own<StructureInput>().statics; });
   statics.optional();
   statics
       .key("carrier_positions", &StaticsInput::places,
@@ -105,8 +106,8 @@ class StructureChecks : KeyChecks {
 
   void run() {
     sun();
-    if (auto& structure = scene_.own<SpaceInput>().carrier_structure) carrier(*structure);
-    if (auto& given = scene_.own<SpaceInput>().housing) housing(*given);
+    if (auto& structure = scene_.own<StructureInput>().carrier) carrier(*structure);
+    if (auto& given = scene_.own<StructureInput>().housing) housing(*given);
   }
 
  private:
@@ -180,7 +181,12 @@ void reverse(std::vector<double>& list, std::initializer_list<std::size_t> which
 }  // namespace
 
 std::vector<Table> structure_tables() {
-  auto tables = space_tables(SpaceOf::planetary);
+  auto tables =
+      space_tables({.bodies = {{"sun", Body::sun, &GravityInput::sun, &TiltInertiaInput::sun},
+                               {"planet", Body::planet, &GravityInput::planet, &TiltInertiaInput::planet},
+                               {"ring", Body::ring, &GravityInput::ring, &TiltInertiaInput::ring},
+                               {"carrier", Body::carrier, &GravityInput::carrier, &TiltInertiaInput::carrier}},
+                    .frames = SpaceSystem::Frames::housing_and_carrier});
   tables.insert(tables.end() - 1, {carrier_structure_table(), housing_table()});
   tables.push_back(statics_table());
   return tables;
@@ -198,19 +204,20 @@ void mirror_space(Scene& scene) {
     constexpr double sign[] = {1, -1, 1, -1, 1};
     for (std::size_t i = 0; i < 25; ++i) b.matrix[i] *= sign[i / 5] * sign[i % 5];
   }
-  const auto mirror = [](Eigen::MatrixXd& stiffness, bool turns) {
+  const auto mirror = [](Eigen::MatrixXd& stiffness) {
     constexpr int sign[] = {1, -1, 1, -1, 1};
     Eigen::VectorXd signs(stiffness.rows());
     for (Eigen::Index i = 0; i < signs.size(); ++i) signs[i] = sign[i % 5];
-    if (turns) signs[signs.size() - 1] = -1;  // about z
+    if (signs.size() % 5 == 1) signs[signs.size() - 1] = -1;  // about z
     stiffness = signs.asDiagonal() * stiffness * signs.asDiagonal();
   };
-  if (auto& structure = space.carrier_structure) {
+  auto& structures = scene.own<StructureInput>();
+  if (auto& structure = structures.carrier) {
     structure->mirrored = true;
     if (structure->first_web) structure->first_web = -*structure->first_web;
-    mirror(structure->stiffness, false);
+    mirror(structure->stiffness);
   }
-  if (space.housing) mirror(space.housing->seats.stiffness, space.housing->seats.turns);
+  if (structures.housing) mirror(structures.housing->seats.stiffness);
   for (auto& l : space.loads) {
     reverse(l.point, {1});
     reverse(l.force, {1});

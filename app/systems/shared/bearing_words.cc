@@ -66,8 +66,12 @@ DofPlan no_dof_out_of_plane(const std::string& name) {
   return {name + " z, tilts", false, "nothing moves it out of the plane: dropped"};
 }
 
-bool bends(const BearingInput& b) {
-  return b.rolls() || !b.displacement.empty() || b.clearance > 0 || b.axial_clearance > 0 || b.tilt_clearance > 0;
+std::vector<std::string> bent_bearings(const std::vector<BearingInput>& bearings) {
+  std::vector<std::string> names;
+  for (const auto& b : bearings)
+    if (b.rolls() || !b.displacement.empty() || b.clearance > 0 || b.axial_clearance > 0 || b.tilt_clearance > 0)
+      names.push_back("'" + b.name + "'");
+  return names;
 }
 
 Warning bearings_linear(const std::vector<std::string>& names, const std::string& more) {

@@ -106,7 +106,14 @@ std::vector<Warning> face_warnings(const std::vector<std::pair<std::string, cons
   if (std::any_of(meshes.begin(), meshes.end(),
                   [](const auto& mesh) { return mesh.second->model.computed() && !mesh.second->face; }))
     list.push_back(even_faces_warning(ring));
-  for (const auto& [name, mesh] : meshes)
+  for (const auto& [name, mesh] : meshes) {
+    if (mesh->face && !mesh->face->tilted)
+      list.push_back(
+          {"face_without_error", Severity::warning,
+           fmt::format("error bars do not contain how the {} changes along its face as the gears tilt: where "
+                       "one end approaches by half as much again as the middle, the other end loses contact",
+                       name),
+           ring});
     if (mesh->face && mesh->face->error_relative > accuracy)
       list.push_back({"face_reduced", Severity::warning,
                       fmt::format("the dynamics has the {} along its face as straight about its load. Where one end "
@@ -114,6 +121,7 @@ std::vector<Warning> face_warnings(const std::vector<std::pair<std::string, cons
                                   "half the face width) deviate by {:.2g} % of the force from those of the solid gears",
                                   name, 100 * mesh->face->error_relative),
                       ring});
+  }
   return list;
 }
 

@@ -40,7 +40,7 @@ enum class GapsAlong { normal, transverse_section };
                                                               const RunOptions& options);
 
 [[nodiscard]] Warning even_faces_warning(const std::string& ring);
-/// How well the faces of meshes in motion are known. `names`: "sun mesh".
+/// How well the faces of meshes in motion are known. `meshes`: each with its name, "sun mesh".
 [[nodiscard]] std::vector<Warning> face_warnings(const std::vector<std::pair<std::string, const MeshResult*>>& meshes,
                                                  double accuracy, const std::string& ring);
 

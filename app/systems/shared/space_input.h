@@ -5,13 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/systems/shared/point_stiffness.h"
-#include "dynamics/spatial/carrier_structure.h"
 #include "dynamics/spatial/stage_bearing.h"
 
+/// What scenes of systems have whose bodies tilt; SI.
 namespace annulus::app {
-
-/// What the scene of a planetary stage or a pair has in three dimensions; SI.
 
 struct BearingInput {
   using Body = dynamics::StageBody::Kind;
@@ -53,7 +50,7 @@ struct LoadInput {
 
 struct GravityInput {
   double acceleration = 0, direction = 0, inclination = 0;
-  /// m, centres of mass on the axes.
+  /// m, z of the centres of mass.
   double sun = 0, planet = 0, ring = 0, carrier = 0, pinion = 0, wheel = 0;
   [[nodiscard]] Eigen::Vector3d vector() const;  ///< m/s^2, in the housing
 };
@@ -64,28 +61,8 @@ struct GravityInput {
   return bearing;
 }
 
-/// Webs between two walls, or a matrix in a file.
-struct CarrierStructureInput {
-  std::optional<int> webs;
-  std::optional<double> web_circle, web_length, web_width, web_depth, first_web;
-  dynamics::Side shaft = dynamics::Side::low;
-  bool mirrored = false;  ///< in a mirror image the first web is on the other side of planet 1
-  std::optional<std::string> file;
-  Eigen::MatrixXd stiffness{};  ///< that of the file: read_carrier_stiffness()
-};
-
-struct HousingInput {
-  std::string file;
-  PointStiffness seats{};  ///< that of the file; its points are columns of bearings
-};
-
 struct TiltInertiaInput {
   std::optional<double> sun, ring, carrier, planet, pinion, wheel;
-};
-
-struct StaticsInput {
-  std::optional<int> places;
-  std::optional<int> phases;
 };
 
 /// Inputs of these systems (Scene::own).
@@ -93,14 +70,9 @@ struct SpaceInput {
   std::vector<BearingInput> bearings;
   std::vector<LoadInput> loads;
   std::optional<GravityInput> gravity;
-  std::optional<CarrierStructureInput> carrier_structure;
-  std::optional<HousingInput> housing;
   TiltInertiaInput tilt_inertia;
-  StaticsInput statics;
 
-  [[nodiscard]] bool any() const {
-    return !bearings.empty() || !loads.empty() || gravity || carrier_structure || housing;
-  }
+  [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity; }
 };
 
 }  // namespace annulus::app

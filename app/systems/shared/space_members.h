@@ -8,7 +8,7 @@ namespace annulus {
 
 ANNULUS_MEMBERS(dynamics::StageBody, kind, planet);
 ANNULUS_MEMBERS(dynamics::LinearBearing, name, body, on, place, stiffness, rigid, preload, standing);
-ANNULUS_MEMBERS(dynamics::LinearCoupling, name, bearings, stiffness, turns_ring, ring_preload);
+ANNULUS_MEMBERS(dynamics::LinearCoupling, name, bearings, stiffness, turned, turning_preload);
 ANNULUS_MEMBERS(dynamics::SpaceLoad, body, load);
 ANNULUS_MEMBERS(dynamics::StandingLoad, body, cosine, sine);
 ANNULUS_MEMBERS(dynamics::SpaceSupports, bearings, couplings, loads, standing_loads);

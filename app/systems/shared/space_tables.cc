@@ -30,23 +30,18 @@ Declarations<Section> declare_list(const char* path, const char* meaning, std::v
       [list](Scene& s, std::size_t n) { (s.own<SpaceInput>().*list).resize(n); });
 }
 
-std::vector<Choice<Body>> bodies(SpaceOf of) {
-  if (of == SpaceOf::pair) return {{"pinion", Body::pinion}, {"wheel", Body::wheel}};
-  return {{"sun", Body::sun}, {"ring", Body::ring}, {"carrier", Body::carrier}, {"planet", Body::planet}};
-}
+bool has_carrier(const SpaceSystem& system) { return system.frames == SpaceSystem::Frames::housing_and_carrier; }
 
-/// Bodies of the tables [gravity] and [tilt_inertia].
-template <class Section, class Value>
-std::vector<std::pair<const char*, Value Section::*>> members(SpaceOf of) {
-  if (of == SpaceOf::pair) return {{"pinion", &Section::pinion}, {"wheel", &Section::wheel}};
-  return {
-      {"sun", &Section::sun}, {"planet", &Section::planet}, {"ring", &Section::ring}, {"carrier", &Section::carrier}};
+std::vector<Choice<Body>> bodies(const SpaceSystem& system) {
+  std::vector<Choice<Body>> list;
+  for (const auto& b : system.bodies) list.push_back({b.name, b.body});
+  return list;
 }
 
 template <class Section>
-void declare_body(Declarations<Section>& t, SpaceOf of, const char* meaning) {
+void declare_body(Declarations<Section>& t, const SpaceSystem& of, const char* meaning) {
   t.choice("body", &Section::body, bodies(of), meaning).required();
-  if (of == SpaceOf::pair) return;
+  if (!has_carrier(of)) return;
   t.key("planet", &Section::planet, "Number of the planet, from 1 on.")
       .from(1, 100)
       .only_if(is("body", {"planet"}), "other bodies have no numbers")
@@ -54,13 +49,13 @@ void declare_body(Declarations<Section>& t, SpaceOf of, const char* meaning) {
 }
 
 template <class Section>
-void declare_frame(Declarations<Section>& t, SpaceOf of, const char* meaning) {
-  if (of == SpaceOf::pair) return;
+void declare_frame(Declarations<Section>& t, const SpaceSystem& of, const char* meaning) {
+  if (!has_carrier(of)) return;
   t.choice("frame", &Section::frame, {{"housing", StageFrame::housing}, {"carrier", StageFrame::carrier}}, meaning)
       .fallback("housing", "it stands still while the carrier turns");
 }
 
-Table bearing_table(SpaceOf of) {
+Table bearing_table(const SpaceSystem& of) {
   auto bearing =
       declare_list("bearing",
                    "A bearing, coupling or mount in its place on the axis. A body that has any is held by these "
@@ -70,7 +65,7 @@ Table bearing_table(SpaceOf of) {
   bearing.on_request();
   bearing.key("name", &BearingInput::name, "Name in results.").required();
   declare_body(bearing, of, "The body that it holds.");
-  if (of == SpaceOf::planetary)
+  if (has_carrier(of))
     bearing
         .choice("on", &BearingInput::on,
                 {{"housing", Body::housing}, {"carrier", Body::carrier}, {"sun", Body::sun}, {"ring", Body::ring}},
@@ -212,7 +207,7 @@ Table bearing_table(SpaceOf of) {
   return bearing.done();
 }
 
-Table load_table(SpaceOf of) {
+Table load_table(const SpaceSystem& of) {
   auto load = declare_list("load", "A force and a moment on a body from without, beside the torque of [stage].",
                            &SpaceInput::loads);
   load.on_request();
@@ -238,7 +233,7 @@ Table load_table(SpaceOf of) {
   return load.done();
 }
 
-Table gravity_table(SpaceOf of) {
+Table gravity_table(const SpaceSystem& of) {
   Declarations<GravityInput> gravity("gravity", "Weight of all bodies.", [](Scene& s, std::size_t) -> GravityInput& {
     auto& g = s.own<SpaceInput>().gravity;
     return g ? *g : g.emplace();
@@ -258,22 +253,22 @@ Table gravity_table(SpaceOf of) {
            "Angle by which it leans out of the transverse plane towards +z: that of the axis with the horizontal.")
       .fallback(0.0, "the axis is horizontal")
       .from(-90, 90);
-  for (const auto& [body, member] : members<GravityInput, double>(of))
+  for (const auto& body : of.bodies)
     gravity
-        .key(fmt::format("{}_at_mm", body), member,
-             fmt::format("Centre of mass of the {} along the axis, from the middle of the face of [stage].", body))
+        .key(fmt::format("{}_at_mm", body.name), body.centre_of_mass,
+             fmt::format("Centre of mass of the {} along the axis, from the middle of the face of [stage].", body.name))
         .fallback(0.0, "in the middle of the face")
         .from(-furthest_mm, furthest_mm);
   return gravity.done();
 }
 
-Table tilt_inertia_table(SpaceOf of) {
+Table tilt_inertia_table(const SpaceSystem& of) {
   Declarations<TiltInertiaInput> tilting(
       "tilt_inertia", "Moments of inertia about an axis across the body's own, through the middle of the face.",
       [](Scene& s, std::size_t) -> TiltInertiaInput& { return s.own<SpaceInput>().tilt_inertia; });
   tilting.on_request();
-  for (const auto& [body, member] : members<TiltInertiaInput, std::optional<double>>(of))
-    tilting.key(fmt::format("{}_kg_m2", body), member, fmt::format("Of the {}.", body))
+  for (const auto& body : of.bodies)
+    tilting.key(fmt::format("{}_kg_m2", body.name), body.tilt_inertia, fmt::format("Of the {}.", body.name))
         .above(0, 1e9)
         .absent("a uniform cylinder as wide as the face about its centre of mass ([gravity]): I/2 + m b^2/12");
   return tilting.done();
@@ -410,7 +405,7 @@ class SpaceChecks : KeyChecks {
 
 }  // namespace
 
-std::vector<Table> space_tables(SpaceOf of) {
+std::vector<Table> space_tables(const SpaceSystem& of) {
   return {bearing_table(of), load_table(of), gravity_table(of), tilt_inertia_table(of)};
 }
 

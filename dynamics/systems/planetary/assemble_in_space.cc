@@ -22,7 +22,7 @@ SpaceBody data_of(const PlanetaryStage& stage, const StageBody& body) {
       return central(stage.sun, tilt.sun, off.sun, stage.sun_speed());
     case Kind::ring: {
       auto ring = central(stage.ring, tilt.ring, off.ring, stage.ring_speed);
-      if (const auto* coupling = stage.space->coupling_of_ring())
+      if (const auto* coupling = stage.space->coupling_that_turns(body))
         ring.torsional_support = coupling->stiffness.bottomRightCorner<1, 1>().value();
       return ring;
     }

@@ -252,8 +252,8 @@ SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& 
     result.x = (motion.force(*spring) - spring->damping * speed * motion.displacement(name + "_y")).transpose();
   if (const auto* spring = motion.spring(name + "_support_y"))
     result.y = (motion.force(*spring) + spring->damping * speed * motion.displacement(name + "_x")).transpose();
-  if (member == StageMember::ring && stage.space && stage.space->coupling_of_ring())
-    result.torque = -space_motion(stage, series).ring_torque;
+  if (member == StageMember::ring && stage.space && stage.space->coupling_that_turns({StageBody::Kind::ring}))
+    result.torque = -space_motion(stage, series).turning_torque;
   else if (const auto* spring = motion.spring(name + "_support_u"))
     result.torque = body.radius * motion.force(*spring).transpose();
   return result;

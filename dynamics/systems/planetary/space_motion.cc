@@ -10,8 +10,8 @@ SpaceMotion space_motion(const PlanetaryStage& stage, const TimeSeries& series) 
   const auto forms = add_bodies_in_space(builder, stage);
   SpaceSystem system;
   for (const auto& bearing : stage.space->bearings) system.bearings.push_back(bearing_motion(stage, forms, bearing));
-  system.ring_u = forms.ring.u;
-  system.ring_radius = stage.ring.radius;
+  system.turned = forms.ring.u;
+  system.turned_radius = stage.ring.radius;
   system.carrier_speed = stage.carrier_speed;
   const auto planets = static_cast<std::size_t>(stage.planets());
   system.faces.assign(planets, &stage.space->sun_face);

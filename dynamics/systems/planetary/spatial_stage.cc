@@ -174,8 +174,8 @@ class Assembly {
       else
         mechanism().hold(fmt::format("the rotation of the {}", mechanism().body(place).name), turn);
     }
-    result_.housing = mechanism().add_element("housing", measures, std::make_shared<LinearLaw>(housing.stiffness),
-                                              Eigen::VectorXd::Zero(size));
+    (void)mechanism().add_element("housing", measures, std::make_shared<LinearLaw>(housing.stiffness),
+                                  Eigen::VectorXd::Zero(size));
   }
 
   /// The angle of the carrier is that of the position; what the ring's torsional support gives way is elastic.

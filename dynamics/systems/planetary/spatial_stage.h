@@ -18,8 +18,8 @@ namespace annulus::dynamics {
 /// What the housing gives way behind bearings that stand on it, in its frame.
 struct HousingStructure {
   std::vector<std::size_t> bearings;  ///< numbers in SpatialStage::bearings
-  /// Of the places of these bearings on the axis: x, y, z, about x, about y of the first one, then of the next ...;
-  /// with `ring_bearing` one more, the rotation of its place about z.
+  /// Between the places of these bearings on the axis: x, y, z, about x, about y of the first one, then of the next
+  /// ...; with `ring_bearing` one more, the rotation of its place about z.
   Eigen::MatrixXd stiffness;
   /// The torque of the ring enters the housing there: position in `bearings`. Absent: the housing does not turn.
   std::optional<std::size_t> ring_bearing{};
@@ -92,10 +92,9 @@ struct StageMechanism {
   std::vector<int> shared{};   ///< per hold: bearings that hold the same, and share what it bears
   std::vector<MadeBearing> bearings{};
   std::shared_ptr<const CoupledFaces> coupling{};  ///< of the driving flanks of the ring meshes; null without
-  int housing = -1;       ///< element of HousingStructure, in its coordinates; -1: the housing is rigid
-  int ring_support = -1;  ///< element of its torsional support; -1: none that gives way
-  int carrier_hold = -1;  ///< of its rotation, which bears its torque
-  int ring_hold = -1;     ///< of its rotation; -1: it has an elastic torsional support
+  int ring_support = -1;                           ///< element of its torsional support; -1: none that gives way
+  int carrier_hold = -1;                           ///< of its rotation, which bears its torque
+  int ring_hold = -1;                              ///< of its rotation; -1: it has an elastic torsional support
 };
 /// At time t (s). Throws InputError where bearings, loads and bodies do not fit.
 [[nodiscard]] StageMechanism assemble(const SpatialStage& stage, double t);

@@ -165,8 +165,11 @@ void put_in_housing(StageSpace& space, const SpatialStage& stage, const std::vec
   const bool turns = stage.plane.carrier_speed != 0;
   const Eigen::MatrixXd mean = turns ? mean_over_turn(all.stiffness) : all.stiffness;
   const Eigen::VectorXd beside = all.preload + (all.stiffness - mean) * motion;
-  LinearCoupling coupling{"housing", {}, mean, housing.ring_bearing.has_value()};
-  if (coupling.turns_ring) coupling.ring_preload = beside[last];
+  LinearCoupling coupling{"housing", {}, mean};
+  if (housing.ring_bearing) {
+    coupling.turned = {Kind::ring};
+    coupling.turning_preload = beside[last];
+  }
   const auto own = own_blocks(coupling.stiffness, found.size());
   for (std::size_t n = 0; n < found.size(); ++n) {
     LinearBearing result = found[n].bearing;
@@ -178,8 +181,7 @@ void put_in_housing(StageSpace& space, const SpatialStage& stage, const std::vec
     coupling.bearings.push_back(space.bearings.size());
     space.bearings.push_back(std::move(result));
   }
-  if (coupling.turns_ring || couples(coupling.stiffness, housing.stiffness))
-    space.couplings.push_back(std::move(coupling));
+  if (coupling.turned || couples(coupling.stiffness, housing.stiffness)) space.couplings.push_back(std::move(coupling));
 }
 
 /// The loads under which planets and bearings on the carrier are linearised. Loads that stand in the housing have their

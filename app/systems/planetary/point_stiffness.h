@@ -10,8 +10,9 @@ namespace annulus::app {
 /// The stiffness of a structure in points of it: forces and moments over displacements and tilts.
 struct PointStiffness {
   std::vector<std::string> points;
-  /// x, y, z, about x, about y of every point, in the axes of the structure; with `turning`, its rotation about z last.
-  /// Rotations of other points about z, on which nothing acts, are condensed. Symmetric, and holds every coordinate.
+  /// x, y, z, about x, about y of every point, in the axes of the structure; where it `turns`, the rotation of one
+  /// about z last. Rotations of other points about z, on which nothing acts, are condensed. Symmetric, and holds every
+  /// coordinate.
   Eigen::MatrixXd stiffness;
   bool turns = false;
 };

@@ -1,4 +1,4 @@
-#include "app/systems/shared/point_stiffness.h"
+#include "app/systems/planetary/point_stiffness.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
