@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <typeindex>
 #include <vector>
 
 #include "app/scene/inputs/common_input.h"
@@ -40,17 +41,18 @@ struct Scene : PlanetaryInput, PairInput, TwoKVInput, StudyInput {
   /// of its own.
   std::string text;
 
-  /// Inputs of a kind of gear system that the members above do not have: one struct, defined by the kind.
+  /// Inputs of a kind of gear system that the members above do not have: structs that the kind defines.
   template <class Inputs>
   [[nodiscard]] Inputs& own() {
-    if (!std::any_cast<Inputs>(&own_)) own_.emplace<Inputs>();
-    return std::any_cast<Inputs&>(own_);
+    auto& known = own_[typeid(Inputs)];
+    if (!known.has_value()) known.emplace<Inputs>();
+    return std::any_cast<Inputs&>(known);
   }
   /// Their defaults where the scene has none of their tables.
   template <class Inputs>
   [[nodiscard]] Inputs own() const {
-    const auto* given = std::any_cast<Inputs>(&own_);
-    return given ? *given : Inputs{};
+    const auto known = own_.find(typeid(Inputs));
+    return known != own_.end() ? std::any_cast<const Inputs&>(known->second) : Inputs{};
   }
 
   std::vector<Input> inputs;                   ///< every input with its origin, in the order of the schema
@@ -64,7 +66,7 @@ struct Scene : PlanetaryInput, PairInput, TwoKVInput, StudyInput {
   }
 
  private:
-  std::any own_;
+  std::map<std::type_index, std::any> own_;
 };
 
 /// Reads and checks a scene file. Throws SceneError with *all* problems found.
