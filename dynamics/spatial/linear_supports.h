@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "core/face_shape.h"
-#include "dynamics/spatial/stage_bodies.h"
+#include "dynamics/spatial/stage_bearing.h"
 
 namespace annulus::dynamics {
 
-/// A bearing for small motions about its working point, in a place on the axis of `body`. Its coordinates d are the
+/// A bearing about its working point, in a place on the axis of `body`. Its coordinates d are the
 /// displacement (x, y, z; m) and the tilt (about x, y; rad) of `body` against `on` there, in the axes of the body:
-/// radial, tangential and axial for planets, those of the carrier for others. It acts on the body with -(K d + f).
+/// radial, tangential and axial for planets, those of the carrier for others. It acts on the body with -(K d + f), or
+/// by a law.
 struct LinearBearing {
   using Stiffness = Eigen::Matrix<double, 5, 5>;
   using Vector = Eigen::Matrix<double, 5, 1>;
@@ -26,6 +27,10 @@ struct LinearBearing {
   Vector preload = Vector::Zero();          ///< f: N, N m
   /// A part of f that stands still in the housing, in the axes of the carrier at time 0; of bearings there alone.
   Vector standing = Vector::Zero();
+  /// The whole bearing, where its force bends (act_by_law()). In coordinates with such forces K serves modes and
+  /// dampers alone, and the bearing acts by its law.
+  std::optional<StageBearing> law{};
+  double law_axes = 0;  ///< rad, about z: the axes of the law from those of the body
   /// Its name among springs, in columns and in groups of modal energy: "planet1_upwind_row".
   [[nodiscard]] std::string element() const;
 };

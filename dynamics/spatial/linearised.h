@@ -1,7 +1,7 @@
 #pragma once
 
+#include "dynamics/spatial/bearing_assembly.h"
 #include "dynamics/spatial/linear_supports.h"
-#include "dynamics/spatial/stage_bearing.h"
 
 namespace annulus::dynamics {
 

@@ -55,8 +55,8 @@ void check(const RollingRow& row) {
                     row.clearance, most / 2));
 }
 
-std::vector<int> coordinates_of(const RollingRow& row, bool in_space) {
-  if (!in_space) return {0, 1};
+std::vector<int> coordinates_of(const RollingRow& row, Freedom freedom) {
+  if (freedom == Freedom::plane) return {0, 1};
   if (row.element == RollingRow::Element::roller && row.contact_angle == 0) return {0, 1, 3, 4};
   return {0, 1, 2, 3, 4};
 }
@@ -97,7 +97,7 @@ ElasticLaw::State in_play(const Eigen::VectorXd& deflection, const std::vector<i
 
 class RollerRowLaw final : public RollingRowLaw {
  public:
-  RollerRowLaw(const RollingRow& row, bool in_space) : RollingRowLaw(coordinates_of(row, in_space)) {
+  RollerRowLaw(const RollingRow& row, Freedom freedom) : RollingRowLaw(coordinates_of(row, freedom)) {
     constexpr double per_m = 1e3;  // mm
     stiffness_ = 35948 * std::pow(per_m * row.length, 8.0 / 9) * std::pow(per_m, exponent) / slices;
     measures_.resize(row.count * slices, size());
@@ -168,8 +168,8 @@ double ball_stiffness(const RollingRow& row) {
 
 class BallRowLaw final : public RollingRowLaw {
  public:
-  BallRowLaw(const RollingRow& row, bool in_space)
-      : RollingRowLaw(coordinates_of(row, in_space)),
+  BallRowLaw(const RollingRow& row, Freedom freedom)
+      : RollingRowLaw(coordinates_of(row, freedom)),
         stiffness_(ball_stiffness(row)),
         distance_((row.inner_groove + row.outer_groove - 1) * row.diameter) {
     const double angle = inner_angle(row);
@@ -228,10 +228,10 @@ class BallRowLaw final : public RollingRowLaw {
 
 }  // namespace
 
-std::shared_ptr<const RollingRowLaw> law_of(const RollingRow& row, bool in_space) {
+std::shared_ptr<const RollingRowLaw> law_of(const RollingRow& row, Freedom freedom) {
   check(row);
-  if (row.element == RollingRow::Element::ball) return std::make_shared<BallRowLaw>(row, in_space);
-  return std::make_shared<RollerRowLaw>(row, in_space);
+  if (row.element == RollingRow::Element::ball) return std::make_shared<BallRowLaw>(row, freedom);
+  return std::make_shared<RollerRowLaw>(row, freedom);
 }
 
 PointContact point_contact(double load, double curvature_sum, double curvature_difference, double modulus) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/elastic_law.h"
+#include "dynamics/spatial/stage_bodies.h"
 
 namespace annulus::dynamics {
 
@@ -44,8 +45,8 @@ class RollingRowLaw : public ElasticLaw {
   std::vector<int> coordinates_;
 };
 
-/// The law of a row, Hertz contacts after [ISO16281]. The first element stands on the x axis. `in_space`: false leaves
-/// out z and the tilts. Throws InputError for sizes that are not positive, fewer than three elements, elements that
+/// The law of a row, Hertz contacts after [ISO16281]. The first element stands on the x axis. In the plane z and the
+/// tilts are left out. Throws InputError for sizes that are not positive, fewer than three elements, elements that
 /// overlap or reach the axis, a contact angle of a right angle or more, and a clearance beyond the grooves.
 ///
 /// Rollers are cut into slices along their length, whose force is c_s delta^(10/9) with c_s = 35948 N/mm^(10/9)
@@ -55,7 +56,7 @@ class RollingRowLaw : public ElasticLaw {
 ///
 /// Balls have the force c delta^(3/2), where delta is by how much the centres of the grooves' curvature are further
 /// apart than in touch; it acts along the line through both, so that the contact angle follows the load.
-[[nodiscard]] std::shared_ptr<const RollingRowLaw> law_of(const RollingRow& row, bool in_space);
+[[nodiscard]] std::shared_ptr<const RollingRowLaw> law_of(const RollingRow& row, Freedom freedom);
 
 /// Contact of two bodies of one material in a point: by Hertz.
 struct PointContact {

@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "core/not_known.h"
+#include "dynamics/spatial/bearing_laws.h"
 
 namespace annulus::dynamics {
 
@@ -25,7 +26,7 @@ Eigen::MatrixXd course(const std::vector<LinearForm>& coordinates, const TimeSer
 SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& system, const TimeSeries& series) {
   SpaceMotion result;
   const Eigen::Index times = series.time.size(), meshes = std::ssize(system.faces);
-  require(series.force.rows() == 2 * meshes, fmt::format("{} forces of {} meshes", series.force.rows(), meshes));
+  require(series.force.rows() >= 2 * meshes, fmt::format("{} forces of {} meshes", series.force.rows(), meshes));
   const Eigen::ArrayXd angle = system.carrier_speed * series.time.array();
   // Forces on a bearing from the motions of others.
   std::vector<Eigen::MatrixXd> from_others(supports.bearings.size());
@@ -50,8 +51,9 @@ SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& sy
   }
   for (std::size_t i = 0; i < supports.bearings.size(); ++i) {
     const auto& b = supports.bearings[i];
-    if (b.stiffness.isZero(0)) continue;  // all that it does is rigid
-    SpaceMotion::Bearing bearing{b.element(), b.body, b.on, -b.stiffness * course(system.bearings[i], series)};
+    if (b.stiffness.isZero(0) && !b.law) continue;  // all that it does is rigid
+    const Eigen::MatrixXd motion = course(system.bearings[i], series);
+    SpaceMotion::Bearing bearing{b.element(), b.body, b.on, -b.stiffness * motion + beyond_stiffness(b, motion)};
     if (from_others[i].size() > 0) bearing.force += from_others[i];
     bearing.force.colwise() -= b.preload;
     if (b.standing.any())

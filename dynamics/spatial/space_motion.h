@@ -38,7 +38,7 @@ struct SpaceSystem {
   double carrier_speed = 0;                         ///< rad/s
   std::vector<const SpreadFace*> faces{};           ///< of each mesh
 };
-/// `series`: forces of all meshes, then those of their tilts (spread_over_face()).
+/// `series`: forces of all meshes, then those of their tilts (spread_over_face()), then others.
 [[nodiscard]] SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& system,
                                           const TimeSeries& series);
 

@@ -29,13 +29,6 @@ bool mirrors(const StageBearing& a, const StageBearing& b) {
          a.force == b.force && !a.matrix && !b.matrix;
 }
 
-/// Do two measures agree but for motions out of the plane?
-bool same_in_plane(const Mechanism::Measure& a, const Mechanism::Measure& b) {
-  for (Eigen::Index i = 0; i < a.size(); ++i)
-    if ((i % 6 < 2 || i % 6 == 5) && a[i] != b[i]) return false;
-  return true;
-}
-
 }  // namespace
 
 bool keeps_plane(const Eigen::MatrixXd& k) {
@@ -75,87 +68,59 @@ void add_reasons(std::vector<std::string>& reasons, const std::vector<StageBeari
   }
 }
 
-Mechanism::Measure BearingAssembly::measure(const StageBearing& b, const BearingPlace& place, int coordinate) const {
-  const Vector3d point = place.middle + b.place * Vector3d::UnitZ();
-  return coordinate < 3 ? mechanism_.displacement(place.body, place.on, point, place.axes.col(coordinate))
-                        : mechanism_.rotation(place.body, place.on, place.axes.col(coordinate - 3));
-}
-
-/// Element on some coordinates of a bearing.
-void BearingAssembly::add_element(MadeBearing& made, const StageBearing& b, const BearingPlace& place,
-                                  const std::vector<int>& coordinates, std::shared_ptr<const ElasticLaw> law) {
-  const auto count = static_cast<Eigen::Index>(coordinates.size());
-  Eigen::MatrixXd measures(count, 6 * static_cast<Eigen::Index>(mechanism_.bodies()));
-  for (Eigen::Index i = 0; i < count; ++i)
-    measures.row(i) = measure(b, place, coordinates[static_cast<std::size_t>(i)]);
-  const int element = mechanism_.add_element(b.name, measures, std::move(law), Eigen::VectorXd::Zero(count));
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    made.element.at(static_cast<std::size_t>(coordinates[i])) = element;
-    made.coordinate.at(static_cast<std::size_t>(coordinates[i])) = static_cast<int>(i);
-  }
-}
-
-void BearingAssembly::hold(MadeBearing& made, const StageBearing& b, const BearingPlace& place, int coordinate) {
-  constexpr const char* words[] = {"the x position", "the y position", "the axial position", "the tilt about x",
-                                   "the tilt about y"};
-  const auto row = measure(b, place, coordinate);
-  int& held = made.held.at(static_cast<std::size_t>(coordinate));
-  // In the plane two bearings on either side of the face hold the same, and share it.
-  if (!space_)
-    for (std::size_t h = 0; h < holds_.size(); ++h)
-      if (same_in_plane(holds_[h], row)) {
-        held = static_cast<int>(h);
-        ++shared_[h];
-        return;
-      }
-  holds_.push_back(row);
-  shared_.push_back(1);
-  held =
-      mechanism_.hold(fmt::format("{} of the {} (bearing '{}')", words[coordinate], name_of_body(b.body), b.name), row);
-}
-
-void BearingAssembly::add_scalar(MadeBearing& made, const StageBearing& b, const BearingPlace& place, int coordinate,
-                                 double stiffness, double play) {
-  if (stiffness == 0) return;
-  if (stiffness == rigid) return hold(made, b, place, coordinate);
-  if (play > 0)
-    add_element(made, b, place, {coordinate}, std::make_shared<StopLaw>(1, stiffness, play));
-  else
-    add_element(made, b, place, {coordinate}, std::make_shared<LinearLaw>(Eigen::MatrixXd::Constant(1, 1, stiffness)));
-}
-
-MadeBearing BearingAssembly::add(const StageBearing& b, const BearingPlace& place) {
-  MadeBearing made{b.name, b.body, b.on, b.frame, b.place, place.axes};
+std::vector<BearingPart> parts_of(const StageBearing& b, Freedom freedom) {
+  const bool space = freedom == Freedom::space;
+  std::vector<BearingPart> parts;
+  const auto linear = [&](std::vector<int> coordinates, const Eigen::MatrixXd& stiffness) {
+    parts.push_back({std::move(coordinates), std::make_shared<LinearLaw>(stiffness)});
+  };
+  const auto single = [&](int coordinate, double stiffness, double play) {
+    if (stiffness == 0 || stiffness == rigid) return;
+    if (play > 0)
+      parts.push_back({{coordinate}, std::make_shared<StopLaw>(1, stiffness, play), true});
+    else
+      linear({coordinate}, Eigen::MatrixXd::Constant(1, 1, stiffness));
+  };
   if (b.matrix) {
-    const std::vector<int> coordinates = space_ ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 1};
-    const auto count = static_cast<Eigen::Index>(coordinates.size());
-    add_element(made, b, place, coordinates, std::make_shared<LinearLaw>(b.matrix->topLeftCorner(count, count)));
-    return made;
+    const Eigen::Index size = space ? 5 : 2;
+    linear(space ? std::vector{0, 1, 2, 3, 4} : std::vector{0, 1}, b.matrix->topLeftCorner(size, size));
+    return parts;
   }
   if (b.row) {
-    made.row = law_of(*b.row, space_);
-    add_element(made, b, place, made.row->coordinates(), made.row);
+    const auto row = law_of(*b.row, freedom);
+    parts.push_back({row->coordinates(), row, true, row});
   } else if (!b.distance.empty()) {
-    add_element(made, b, place, {0, 1}, std::make_shared<TableLaw>(b.distance, b.force));
+    parts.push_back({{0, 1}, std::make_shared<TableLaw>(b.distance, b.force), true});
   } else if (b.play > 0 && b.x > 0) {
+    std::shared_ptr<const ElasticLaw> law;
     if (b.load_zone)
-      add_element(made, b, place, {0, 1}, std::make_shared<LoadZoneLaw>(RadialBearing(b.x, b.play, b.seat), b.x));
+      law = std::make_shared<LoadZoneLaw>(RadialBearing(b.x, b.play, b.seat), b.x);
     else
-      add_element(made, b, place, {0, 1}, std::make_shared<StopLaw>(2, b.x, b.play));
+      law = std::make_shared<StopLaw>(2, b.x, b.play);
+    parts.push_back({{0, 1}, std::move(law), true});
   } else {
-    add_scalar(made, b, place, 0, b.x, 0);
-    add_scalar(made, b, place, 1, b.y, 0);
+    single(0, b.x, 0);
+    single(1, b.y, 0);
   }
-  if (!space_) return made;
-  if (made.element[2] < 0) add_scalar(made, b, place, 2, b.axial, b.axial_play);
-  if (b.row) return made;
+  if (!space) return parts;
+  constexpr int axial = 2;
+  const auto holds = [&](const auto& part) {
+    return std::count(part.coordinates.begin(), part.coordinates.end(), axial) > 0;
+  };
+  if (std::none_of(parts.begin(), parts.end(), holds)) single(axial, b.axial, b.axial_play);
+  if (b.row) return parts;
   if (b.tilt_play > 0 && b.tilt > 0) {
-    add_element(made, b, place, {3, 4}, std::make_shared<StopLaw>(2, b.tilt, b.tilt_play));
+    parts.push_back({{3, 4}, std::make_shared<StopLaw>(2, b.tilt, b.tilt_play), true});
   } else {
-    add_scalar(made, b, place, 3, b.tilt, 0);
-    add_scalar(made, b, place, 4, b.tilt, 0);
+    single(3, b.tilt, 0);
+    single(4, b.tilt, 0);
   }
-  return made;
+  return parts;
+}
+
+bool bends(const StageBearing& bearing) {
+  const auto parts = parts_of(bearing, Freedom::space);
+  return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.bends; });
 }
 
 }  // namespace annulus::dynamics

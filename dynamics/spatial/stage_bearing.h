@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/elastic_law.h"
-#include "dynamics/spatial/mechanism.h"
 #include "dynamics/spatial/rolling_rows.h"
 #include "dynamics/spatial/stage_bodies.h"
 #include "dynamics/system/support.h"
@@ -36,6 +35,17 @@ struct StageBearing {
   std::optional<Eigen::Matrix<double, 5, 5>> matrix{};  ///< instead of the stiffnesses; SI
 };
 
+/// What of a bearing gives way, on some of x, y, z (0, 1, 2), about x and about y (3, 4).
+struct BearingPart {
+  std::vector<int> coordinates;
+  std::shared_ptr<const ElasticLaw> law;
+  bool bends = false;                          ///< its force is no linear function of the deflection
+  std::shared_ptr<const RollingRowLaw> row{};  ///< the law, where it has rolling elements
+};
+/// All parts. Throws InputError for sizes that no bearing has.
+[[nodiscard]] std::vector<BearingPart> parts_of(const StageBearing& bearing, Freedom freedom);
+[[nodiscard]] bool bends(const StageBearing& bearing);
+
 /// A force and a moment on a body at a point (m, from the middle of the stage's axis, or a planet's).
 struct StageLoad {
   std::string name;
@@ -60,51 +70,5 @@ struct StageWeight {
 void add_reasons(std::vector<std::string>& reasons, const std::vector<StageLoad>& loads,
                  const std::vector<StageWeight>& weights, const Eigen::Vector3d& gravity);
 void add_reasons(std::vector<std::string>& reasons, const std::vector<StageBearing>& bearings);
-
-/// A bearing in a mechanism, or the support that a body without one has.
-struct MadeBearing {
-  std::string name;
-  StageBody body, on;
-  StageFrame frame = StageFrame::housing;
-  double place = 0;                                    ///< m, z
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of its frame, as columns
-  /// x, y, z, about x, about y: the element and coordinate that resists it, or the hold; -1: nothing.
-  std::array<int, 5> element{-1, -1, -1, -1, -1}, coordinate{}, held{-1, -1, -1, -1, -1};
-  std::shared_ptr<const RollingRowLaw> row{};  ///< of its first element; null: it has no rolling elements
-};
-
-/// Where a bearing stands: numbers of its bodies in a mechanism, the middle of what it holds, axes of its frame
-/// (columns).
-struct BearingPlace {
-  int body = 0, on = Mechanism::ground;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-};
-
-/// Adds bearings to a mechanism.
-class BearingAssembly {
- public:
-  /// `in_space`: bodies move along the axis and tilt.
-  BearingAssembly(Mechanism& mechanism, bool in_space) : mechanism_(mechanism), space_(in_space) {}
-
-  [[nodiscard]] MadeBearing add(const StageBearing& bearing, const BearingPlace& place);
-  /// x, y, z, about x, about y of a bearing: 0 ... 4.
-  [[nodiscard]] Mechanism::Measure measure(const StageBearing& bearing, const BearingPlace& place,
-                                           int coordinate) const;
-  /// Per hold of the mechanism: bearings that hold the same. They are its first holds.
-  [[nodiscard]] const std::vector<int>& shared() const { return shared_; }
-
- private:
-  void add_element(MadeBearing& made, const StageBearing& bearing, const BearingPlace& place,
-                   const std::vector<int>& coordinates, std::shared_ptr<const ElasticLaw> law);
-  void hold(MadeBearing& made, const StageBearing& bearing, const BearingPlace& place, int coordinate);
-  void add_scalar(MadeBearing& made, const StageBearing& bearing, const BearingPlace& place, int coordinate,
-                  double stiffness, double play);
-
-  Mechanism& mechanism_;
-  bool space_;
-  std::vector<Mechanism::Measure> holds_;
-  std::vector<int> shared_;
-};
 
 }  // namespace annulus::dynamics

@@ -15,6 +15,9 @@ struct StageBody {
 /// For messages and files: "sun", "planet2".
 [[nodiscard]] std::string name_of_body(const StageBody& body);
 
+/// Motions of bodies: in the plane alone, or along the axis and tilting as well.
+enum class Freedom { plane, space };
+
 /// Frames in which bearings, loads and results are stated. z points along the axis in all of them.
 ///
 /// carrier: x towards planet 0. housing: that of the carrier at time 0. planet: x radially outwards through the

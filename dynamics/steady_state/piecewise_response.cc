@@ -239,7 +239,7 @@ std::string why_not_piecewise(const LumpedSystem& system, double period) {
   if (system.meshes().empty()) return "there is no mesh";
   if (system.has_moving_vectors()) return "mesh vectors move with the mesh";
   if (!system.couplings().empty()) return "meshes act on each other through a common body";
-  if (!system.bearings().empty()) return "bearings have clearance";
+  if (!system.laws().empty()) return "bearings have clearance or rolling elements";
   if (!system.faces().empty()) return "meshes are spread over their faces";
   if (!system.harmonic_loads().empty()) return "loads change in time";
   for (const auto& mesh : system.meshes()) {

@@ -73,8 +73,8 @@ Eigen::VectorXd LumpedSystem::load_at(double t) const {
 }
 
 bool LumpedSystem::is_whole_mesh(int mesh) const {
-  return std::none_of(bearings_.begin(), bearings_.end(),
-                      [mesh](const auto& bearing) { return bearing.first == mesh || bearing.second == mesh; }) &&
+  return std::none_of(laws_.begin(), laws_.end(),
+                      [mesh](const auto& law) { return std::count(law.meshes.begin(), law.meshes.end(), mesh) > 0; }) &&
          std::none_of(faces_.begin(), faces_.end(), [mesh](const auto& face) { return face.tilt == mesh; });
 }
 
@@ -121,7 +121,13 @@ LumpedSystem::Workspace LumpedSystem::workspace() const {
   for (auto* list :
        {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.elastic, &w.tangent, &w.approach})
     list->assign(meshes_.size(), 0.0);
-  w.across.assign(bearings_.size(), 0.0);
+  std::size_t largest = 0, tangents = 0;
+  for (const auto& element : laws_) {
+    largest = std::max(largest, element.meshes.size());
+    tangents += element.meshes.size() * element.meshes.size();
+  }
+  w.law.assign(2 * largest, 0.0);
+  w.law_tangent.assign(tangents, 0.0);
   w.across_face.assign(faces_.size(), 0.0);
   w.face_shape.assign(faces_.size(), {});
   w.location.resize(meshes_.size());
@@ -159,8 +165,10 @@ void LumpedSystem::tangent_matrix(const Workspace& w, Eigen::Ref<Eigen::MatrixXd
     for (int i = 0; i < tangent.rows(); ++i)
       for (int j = 0; j < tangent.cols(); ++j) result(coupling.meshes[i], coupling.meshes[j]) = tangent(i, j);
   }
-  for (std::size_t i = 0; i < bearings_.size(); ++i)
-    result(bearings_[i].first, bearings_[i].second) = result(bearings_[i].second, bearings_[i].first) = w.across[i];
+  const double* of_law = w.law_tangent.data();
+  for (const auto& element : laws_)
+    for (const int i : element.meshes)
+      for (const int j : element.meshes) result(i, j) = *of_law++;
   if (faces_.empty()) return;
   // A tilt changes the force of its own mesh as k_x/k of an approach would, k_x across and k of the mesh alone; what
   // the coupling does to that change comes back to all tilts.
@@ -216,9 +224,9 @@ double LumpedSystem::energy(double t, const double* y, Workspace& w) const {
     energy +=
         mesh.surface ? mesh.surface->energy(table_place(mesh, w.contact[m], t).cycles, g) : 0.5 * w.elastic[m] * g;
   }
-  for (const auto& bearing : bearings_) {
-    const auto i = static_cast<std::size_t>(bearing.first), j = static_cast<std::size_t>(bearing.second);
-    energy += bearing.law.energy(std::hypot(w.delta[i], w.delta[j]));
+  for (const auto& element : laws_) {
+    std::transform(element.meshes.begin(), element.meshes.end(), w.law.begin(), [&](int m) { return w.delta[m]; });
+    energy += element.law->energy(w.law.data());
   }
   for (const auto& face : faces_)
     for (const auto& place : face.places) {

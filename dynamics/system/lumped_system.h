@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/radial_bearing.h"
 #include "dynamics/system/curve_bundle.h"
+#include "dynamics/system/force_law.h"
 #include "dynamics/system/mesh_excitation.h"
 
 namespace annulus::dynamics {
@@ -72,12 +72,11 @@ struct MeshCoupling {
 /// InputError without a matrix.
 [[nodiscard]] std::vector<PeriodicCurve> compliance_curves(const std::vector<Eigen::MatrixXd>& matrices, int per_cycle);
 
-/// Two meshes that are the components, at right angles, of the motion in a bearing: their elastic forces are those of
-/// its law and point along the motion. The stiffness of the meshes is that of small motions about the nominal load;
-/// their dampers act as in any mesh.
-struct BearingElement {
-  int first = 0, second = 0;  ///< in the order of add_mesh; without backlash and coupling
-  RadialBearing law;
+/// Meshes that are the components of a motion, in a bearing say: their elastic forces are those of a law of all of
+/// them. The stiffness of the meshes is that of small motions about the nominal load; their dampers act as in any mesh.
+struct LawElement {
+  std::vector<int> meshes;  ///< in the order of add_mesh; without backlash and coupling
+  std::shared_ptr<const ForceLaw> law;
 };
 
 /// A mesh along its face, as two meshes: the approach in the middle of the face, with the excitation, the errors and
@@ -140,7 +139,8 @@ class LumpedSystem {
     std::vector<double> delta, delta_rate, force;  ///< per mesh, of the last evaluation
     std::vector<double> elastic;                   ///< per mesh, force without damping of the last evaluation
     std::vector<double> tangent;                   ///< per mesh, dF/d delta of the last evaluation, N/m
-    std::vector<double> across;                    ///< per bearing, d elastic of one mesh / d delta of the other, N/m
+    std::vector<double> law;                       ///< scratch of one law: deflections, forces
+    std::vector<double> law_tangent;               ///< per law, d elastic / d delta of its meshes, N/m
     std::vector<double> across_face;               ///< per face, d elastic of the tilt / d delta of the approach, N/m
     /// Per face at `time`: slope, curvature, gap_slope of its course, then their rates, 1/s and m/s.
     std::vector<std::array<double, 6>> face_shape;
@@ -175,12 +175,12 @@ class LumpedSystem {
   [[nodiscard]] Eigen::MatrixXd damping_with_meshes() const;                 ///< C + sum c b b^T, b at time 0
   [[nodiscard]] bool has_moving_vectors() const;                             ///< does any b change in time?
   [[nodiscard]] const std::vector<MeshCoupling>& couplings() const { return couplings_; }
-  [[nodiscard]] const std::vector<BearingElement>& bearings() const { return bearings_; }
+  [[nodiscard]] const std::vector<LawElement>& laws() const { return laws_; }
   [[nodiscard]] const std::vector<FaceElement>& faces() const { return faces_; }
-  [[nodiscard]] bool is_whole_mesh(int mesh) const;  ///< neither a component of a bearing nor the tilt of a mesh
+  [[nodiscard]] bool is_whole_mesh(int mesh) const;  ///< neither a component of a law nor the tilt of a mesh
   [[nodiscard]] bool is_gear_mesh(int mesh) const;   ///< whole, and no shaft
   /// Whether the force of some mesh depends on the deflection of another.
-  [[nodiscard]] bool has_coupled_meshes() const { return !couplings_.empty() || !bearings_.empty() || !faces_.empty(); }
+  [[nodiscard]] bool has_coupled_meshes() const { return !couplings_.empty() || !laws_.empty() || !faces_.empty(); }
 
   [[nodiscard]] Workspace workspace() const;
   /// Sets the contact states from the deflections at (t, q).
@@ -188,7 +188,7 @@ class LumpedSystem {
   /// Stiffness, error and error rate of every mesh at time t.
   void evaluate_excitation(double t, Workspace& workspace) const;
   /// delta, delta' and F of every mesh in its held contact state at time t (s), q (m) and v (m/s) one per DOF. No
-  /// allocation.
+  /// allocation, but by laws of bearings.
   void evaluate_meshes(double t, const double* q, const double* v, Workspace& workspace) const;
   /// The same from the approaches b^T q (m) and their rates (m/s), one per mesh, from which the errors are not yet
   /// subtracted. The contact states follow the deflections. No allocation.
@@ -224,7 +224,7 @@ class LumpedSystem {
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;
-  std::vector<BearingElement> bearings_;
+  std::vector<LawElement> laws_;
   std::vector<FaceElement> faces_;
   std::vector<SpringElement> springs_;
   Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
@@ -267,11 +267,11 @@ class LumpedSystemBuilder {
   void add_mass_coupling(const LinearForm& a, const LinearForm& b, double value);
   /// Couples meshes that were added before. A mesh belongs to one coupling at most.
   void add_mesh_coupling(MeshCoupling coupling);
-  /// Makes two meshes that were added before the components of a bearing.
-  void add_bearing(BearingElement bearing);
+  /// Makes meshes that were added before the components of a law.
+  void add_law(LawElement law);
   /// Spreads a mesh that was added before over its face; it may be part of a coupling.
   void add_face(FaceElement face);
-  /// Throws InputError when a DOF has no mass or a coupling, bearing, face or moving share does not fit its meshes and
+  /// Throws InputError when a DOF has no mass or a coupling, law, face or moving share does not fit its meshes and
   /// DOFs.
   [[nodiscard]] LumpedSystem build() const;
 
@@ -282,7 +282,7 @@ class LumpedSystemBuilder {
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;
-  std::vector<BearingElement> bearings_;
+  std::vector<LawElement> laws_;
   std::vector<FaceElement> faces_;
   std::vector<SpringElement> springs_;
   struct Term {

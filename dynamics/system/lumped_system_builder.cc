@@ -46,10 +46,9 @@ void LumpedSystemBuilder::add(const LumpedSystem& system, const std::string& pre
     coupling.body = prefix + coupling.body;
     couplings_.push_back(std::move(coupling));
   }
-  for (auto bearing : system.bearings_) {
-    bearing.first += meshes;
-    bearing.second += meshes;
-    bearings_.push_back(bearing);
+  for (auto element : system.laws_) {
+    for (int& mesh : element.meshes) mesh += meshes;
+    laws_.push_back(std::move(element));
   }
   for (auto face : system.faces_) {
     face.approach += meshes;
@@ -153,7 +152,7 @@ void LumpedSystemBuilder::add_mass_coupling(const LinearForm& a, const LinearFor
 
 void LumpedSystemBuilder::add_mesh_coupling(MeshCoupling coupling) { couplings_.push_back(std::move(coupling)); }
 
-void LumpedSystemBuilder::add_bearing(BearingElement bearing) { bearings_.push_back(bearing); }
+void LumpedSystemBuilder::add_law(LawElement law) { laws_.push_back(std::move(law)); }
 
 void LumpedSystemBuilder::add_face(FaceElement face) { faces_.push_back(std::move(face)); }
 
@@ -176,7 +175,7 @@ LumpedSystem LumpedSystemBuilder::build() const {
   system.meshes_ = meshes_;
   system.springs_ = springs_;
   system.couplings_ = couplings_;
-  system.bearings_ = bearings_;
+  system.laws_ = laws_;
   system.faces_ = faces_;
   assemble_matrices(system);
   check_mass(system);

@@ -61,7 +61,7 @@ std::shared_ptr<const LumpedSystem::Compiled> LumpedSystemCompiler::compile() {
   for (const auto& mesh : system_.meshes()) compile_mesh(mesh);
   compile_moving_shares();
   for (const auto& coupling : system_.couplings()) compile_coupling(coupling);
-  for (const auto& bearing : system_.bearings()) compile_bearing(bearing);
+  for (const auto& element : system_.laws()) compile_law(element);
   for (std::size_t i = 0; i < system_.faces().size(); ++i) compile_face(system_.faces()[i], static_cast<int>(i));
   compile_rows();
   return std::move(compiled_);
@@ -204,10 +204,12 @@ void LumpedSystemCompiler::check_uncoupled(const std::string& what, int mesh) co
         fmt::format("{} names mesh {} ({}), which is coupled already", what, mesh, system_.meshes()[mesh].name));
 }
 
-void LumpedSystemCompiler::compile_bearing(const BearingElement& bearing) {
-  for (const int m : {bearing.first, bearing.second}) {
-    check_uncoupled("a bearing", m);
-    check_without_backlash("a bearing", m);
+void LumpedSystemCompiler::compile_law(const LawElement& element) {
+  if (element.law->size() != std::ssize(element.meshes))
+    throw InputError(fmt::format("a law of {} deflections has {} meshes", element.law->size(), element.meshes.size()));
+  for (const int m : element.meshes) {
+    check_uncoupled("a law", m);
+    check_without_backlash("a law", m);
     compiled_->meshes[m].coupled = true;
   }
 }

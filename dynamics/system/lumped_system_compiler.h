@@ -27,7 +27,7 @@ class LumpedSystemCompiler {
   void compile_moving_shares();
   void compile_coupling(const MeshCoupling& coupling);
   void check_coupling(const MeshCoupling& coupling) const;
-  void compile_bearing(const BearingElement& bearing);
+  void compile_law(const LawElement& element);
   void compile_face(const FaceElement& face, int number);
   /// That a mesh exists and depends on no other yet.
   void check_uncoupled(const std::string& what, int mesh) const;

@@ -93,26 +93,6 @@ void LumpedSystem::evaluate_excitation(double t, Workspace& w) const {
   w.excitation_valid = true;
 }
 
-namespace {
-
-/// F = f(|d|) d / |d| with its tangents; `across`: between both components.
-void apply_bearing(const BearingElement& bearing, LumpedSystem::Workspace& w, double& across) {
-  const auto i = static_cast<std::size_t>(bearing.first), j = static_cast<std::size_t>(bearing.second);
-  w.delta[i] = w.approach[i];
-  w.delta[j] = w.approach[j];
-  const double distance = std::hypot(w.delta[i], w.delta[j]);
-  const auto [force, along] = bearing.law(distance);
-  const double secant = distance > 0 ? force / distance : along;
-  const double a = distance > 0 ? w.delta[i] / distance : 0.0, b = distance > 0 ? w.delta[j] / distance : 0.0;
-  w.elastic[i] = secant * w.delta[i];
-  w.elastic[j] = secant * w.delta[j];
-  w.tangent[i] = secant + (along - secant) * a * a;
-  w.tangent[j] = secant + (along - secant) * b * b;
-  across = (along - secant) * a * b;
-}
-
-}  // namespace
-
 void apply_face(const FaceElement& face, const CompiledMesh& mesh, LumpedSystem::Workspace& w, double& across) {
   using Contact = LumpedSystem::Contact;
   // Left of the tangents where nothing touches, so that an unloaded body has a place.
@@ -137,6 +117,26 @@ void apply_face(const FaceElement& face, const CompiledMesh& mesh, LumpedSystem:
   w.contact[j] = w.contact[i];
 }
 
+namespace {
+
+/// Writes the tangent, and returns where that of the next law stands.
+double* apply_law_element(const LawElement& element, LumpedSystem::Workspace& w, double* tangent) {
+  const std::size_t size = element.meshes.size();
+  double *deflection = w.law.data(), *force = deflection + size;
+  for (std::size_t i = 0; i < size; ++i) {
+    const int m = element.meshes[i];
+    deflection[i] = w.delta[m] = w.approach[m];
+  }
+  element.law->evaluate(deflection, force, tangent);
+  for (std::size_t i = 0; i < size; ++i) {
+    w.elastic[element.meshes[i]] = force[i];
+    w.tangent[element.meshes[i]] = tangent[i * (size + 1)];
+  }
+  return tangent + size * size;
+}
+
+}  // namespace
+
 void LumpedSystem::apply_forces(Workspace& w, ContactStates states) const {
   const Compiled& c = *compiled_;
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
@@ -154,7 +154,8 @@ void LumpedSystem::apply_forces(Workspace& w, ContactStates states) const {
   for (const auto& coupling : c.couplings) solve_coupling(coupling, c.meshes, faces_, states, w);
   for (std::size_t i = 0; i < faces_.size(); ++i)
     apply_face(faces_[i], c.meshes[faces_[i].approach], w, w.across_face[i]);
-  for (std::size_t i = 0; i < bearings_.size(); ++i) apply_bearing(bearings_[i], w, w.across[i]);
+  double* tangent = w.law_tangent.data();
+  for (const auto& element : laws_) tangent = apply_law_element(element, w, tangent);
   for (std::size_t m = 0; m < c.meshes.size(); ++m)
     w.force[m] = w.elastic[m] + acting_damping(c.meshes[m], w.contact[m]) * w.delta_rate[m];
 }

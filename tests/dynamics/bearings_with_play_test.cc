@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(bearings_with_play_are_checked) {
   element.b = y;
   element.half_backlash = 1;
   const int second = builder.add_mesh(element);
-  builder.add_bearing({first, second, RadialBearing(1, 1)});
+  builder.add_law({{first, second}, radial_law(RadialBearing(1, 1))});
   BOOST_CHECK_THROW((void)builder.build(), annulus::InputError);
 }
 

@@ -150,8 +150,6 @@ std::vector<Warning> pair_space_warnings(const Scene& scene) {
                     fmt::format("no [[bearing]] holds the {}: it lies in the bearings of its own table and is assumed "
                                 "not to tilt",
                                 fmt::join(held, ", "))});
-  const auto bent = bent_bearings(space.bearings);
-  if (!bent.empty()) list.push_back(bearings_linear(bent, ""));
   if (!assumed.empty()) list.push_back(tilt_inertia_assumed(assumed));
   return list;
 }

@@ -94,18 +94,27 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
     list.push_back({"mass_in_middle", Severity::warning,
                     "the inertia of planets acts in the middle of their face in the dynamics, their weight at "
                     "gravity.planet_at_mm"});
-  std::vector<std::string> bent = bent_bearings(space.bearings), directed;
+  std::vector<std::string> in_series, directed;
   const auto in_housing = [&](const BearingInput& b) {
     const auto& housing = scene.own<StructureInput>().housing;
     if (!housing) return false;
     const auto& points = housing->seats.points;
     return std::find(points.begin(), points.end(), column_of(b.name)) != points.end();
   };
-  for (const auto& b : space.bearings)
+  for (const auto& b : space.bearings) {
+    const auto made = stage_bearing(b, {b.body}, b.name);
+    const bool on_pins =
+        frame.pins && b.body == dynamics::StageBody::Kind::planet && made.on.kind == dynamics::StageBody::Kind::carrier;
+    if ((on_pins || in_housing(b)) && dynamics::bends(made)) in_series.push_back("'" + b.name + "'");
     if (depends_on_direction(b) || in_housing(b)) directed.push_back("'" + b.name + "'");
-  if (scene.supports.planet_clearance > 0 && !has_radial_bearing(scene, dynamics::StageBody::Kind::planet))
-    bent.emplace_back("supports.planet_clearance_um");
-  if (!bent.empty()) list.push_back(bearings_linear(bent, "; annulus statics has its whole law"));
+  }
+  if (!in_series.empty())
+    list.push_back(
+        {"bearings_linear", Severity::warning,
+         fmt::format("bearing {} stands on pins, a carrier or a housing that gives way: the dynamics has its "
+                     "stiffness at the equilibrium at time 0, and the force that it bears there. Motions that "
+                     "change its load by a large part of it are not right; annulus statics has its whole law",
+                     fmt::join(in_series, ", "))});
   if (!directed.empty())
     list.push_back({"bearings_averaged", Severity::warning,
                     fmt::format("the stiffness of bearing {} in the housing depends on the direction; the dynamics has "

@@ -66,22 +66,6 @@ DofPlan no_dof_out_of_plane(const std::string& name) {
   return {name + " z, tilts", false, "nothing moves it out of the plane: dropped"};
 }
 
-std::vector<std::string> bent_bearings(const std::vector<BearingInput>& bearings) {
-  std::vector<std::string> names;
-  for (const auto& b : bearings)
-    if (b.rolls() || !b.displacement.empty() || b.clearance > 0 || b.axial_clearance > 0 || b.tilt_clearance > 0)
-      names.push_back("'" + b.name + "'");
-  return names;
-}
-
-Warning bearings_linear(const std::vector<std::string>& names, const std::string& more) {
-  return {
-      "bearings_linear", Severity::warning,
-      fmt::format("the dynamics has the stiffness of bearing {} at the equilibrium at time 0, and the force that it "
-                  "bears there. Motions that change its load by a large part of it are not right{}",
-                  fmt::join(names, ", "), more)};
-}
-
 Warning tilt_inertia_assumed(const std::vector<std::string>& keys) {
   return {"tilt_inertia_assumed", Severity::warning,
           fmt::format("tilt inertias are those of uniform cylinders as wide as the face, because the scene does not "

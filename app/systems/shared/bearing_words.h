@@ -16,10 +16,6 @@ namespace annulus::app {
 [[nodiscard]] DofPlan tilt_dof(const std::string& name, const std::vector<dynamics::StageBearing>& bearings);
 [[nodiscard]] DofPlan no_dof_out_of_plane(const std::string& name);
 
-/// Names, with quotes, of bearings whose force is no linear function of their motion.
-[[nodiscard]] std::vector<std::string> bent_bearings(const std::vector<BearingInput>& bearings);
-/// `names`: with quotes. `more`: what else there is for such bearings.
-[[nodiscard]] Warning bearings_linear(const std::vector<std::string>& names, const std::string& more);
 /// `keys`: those that the scene does not mention.
 [[nodiscard]] Warning tilt_inertia_assumed(const std::vector<std::string>& keys);
 

@@ -374,7 +374,7 @@ class SpaceChecks : KeyChecks {
       problem("bearing.contact_angle_deg", i, "needs the place of the contacts; give bearing.pitch_diameter_mm");
     else if (usable(count, i) && sized && (!b.balls || b.pitch_diameter))
       try {
-        (void)dynamics::law_of(rolling_row(b), true);
+        (void)dynamics::law_of(rolling_row(b), dynamics::Freedom::space);
       } catch (const InputError& error) {
         problem(count, i, error.what());
       }

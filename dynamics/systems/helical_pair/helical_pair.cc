@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "dynamics/spatial/bearing_laws.h"
 #include "dynamics/system/input_checks.h"
 #include "dynamics/system/periods.h"
 #include "geometry/iso6336.h"
@@ -222,6 +223,11 @@ LumpedSystem assemble(const HelicalPair& pair) {
   if (pair.space) tilt = spread_over_face(builder, mesh, pair.space->face, bodies.tilt, 0, 1);
   builder.add_mesh(std::move(mesh));
   if (tilt) builder.add_mesh(std::move(*tilt));
+  if (pair.space) {
+    const auto motions = bearing_coordinates(pair);
+    for (std::size_t i = 0; i < motions.size(); ++i)
+      add_bearing_law(builder, pair.space->bearings[i], motions[i], pair.pinion.radius);
+  }
 
   // Equal on both, which is T_2/r_2 = T_1/r_1 balanced to rounding: a pair free to turn does not creep away.
   const double force = pair.pinion_torque / pair.pinion.radius;

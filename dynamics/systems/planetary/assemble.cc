@@ -4,6 +4,7 @@
 #include <string>
 #include <tuple>
 
+#include "dynamics/spatial/bearing_laws.h"
 #include "dynamics/system/lumped_system.h"
 #include "dynamics/system/support.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
@@ -75,7 +76,7 @@ void add_bearing_with_play(LumpedSystemBuilder& builder, const PlanetaryStage& s
       builder.add_mesh(bearing_component(stage, name + "_bearing_along", radial, tangential, along, slope));
   const int second = builder.add_mesh(bearing_component(stage, name + "_bearing_across", radial, tangential,
                                                         {-along[1], along[0]}, distance > 0 ? size / distance : slope));
-  builder.add_bearing({first, second, law});
+  builder.add_law({{first, second}, radial_law(law)});
   const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
   builder.add_load(radial, stage.planet.mass * stage.carrier.radius * speed * speed);
 }
@@ -311,6 +312,9 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   for (auto& element : ring_meshes) meshes.push_back(std::move(element));
   if (stage.space) spread_meshes(meshes, builder, stage, bodies);
   for (auto& element : meshes) builder.add_mesh(std::move(element));
+  if (stage.space)
+    for (const auto& bearing : stage.space->bearings)
+      add_bearing_law(builder, bearing, bearing_motion(stage, bodies, bearing), stage.carrier.radius);
   add_couplings(builder, stage, ring_modes);
   for (int n = 0; n < stage.planets(); ++n)
     if (!stage.space && stage.planet_bearing(n).play > 0) add_bearing_with_play(builder, stage, bodies, n);

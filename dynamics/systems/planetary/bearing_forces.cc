@@ -152,7 +152,7 @@ BearingForces pin_forces(const PlanetaryStage& stage, const TimeSeries& series, 
                                  : 0;  // in space one of its loads
   Eigen::Index with_play = 2 * static_cast<Eigen::Index>(stage.planets());
   for (int n = 0; n < stage.planets(); ++n) {
-    if (stage.planet_bearing(n).play > 0) {
+    if (!stage.space && stage.planet_bearing(n).play > 0) {
       set_pin_force_with_play(stage, series, n, with_play, result);
       with_play += 2;
       continue;

@@ -42,7 +42,7 @@ class Assembly {
         time_(t),
         space_(!stage.reasons_for_space().empty()),
         result_{.mechanism = Mechanism(stage.plane.carrier.radius)},
-        bearings_(result_.mechanism, space_) {}
+        bearings_(result_.mechanism, space_ ? Freedom::space : Freedom::plane) {}
 
   StageMechanism build() && {
     for (const auto kind : central_bodies) mechanism().add_body({name_of_body({kind}), Vector3d::Zero(), space_});

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/elastic_law.h"
+#include "dynamics/spatial/bearing_assembly.h"
 #include "dynamics/spatial/coupled_faces.h"
 #include "dynamics/spatial/mechanism.h"
-#include "dynamics/spatial/stage_bearing.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::dynamics {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "dynamics/spatial/bearing_laws.h"
 #include "dynamics/spatial/linearised.h"
 
 namespace annulus::dynamics {
@@ -292,10 +293,12 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
                           (turning.bearings[i].matrix || turning.bearings[i].x != turning.bearings[i].y);
     if (on_housing && directed) found.stiffness = mean_over_turn(found.stiffness);
     const bool seated = stage.pins && bearing.body.kind == Kind::planet && bearing.on.kind == Kind::carrier;
-    if (seated)
+    if (seated) {
       of_planets[static_cast<std::size_t>(bearing.body.planet)].push_back(std::move(found));
-    else
-      space.bearings.push_back(std::move(found));
+      continue;
+    }
+    act_by_law(found, bearing.bearing);
+    space.bearings.push_back(std::move(found));
   }
   if (stage.pins) put_on_pins(space, of_planets, *stage.pins);
   if (stage.housing) put_in_housing(space, stage, in_housing, made_under_all, under_all);
