@@ -283,28 +283,52 @@ BOOST_AUTO_TEST_CASE(the_plane_is_a_setting) {
   compare(spur, s, "spur gears");
 }
 
-// A clearance moves the gear until its bearing carries; the row of rollers has its tangent there.
-BOOST_AUTO_TEST_CASE(bearings_about_the_equilibrium) {
+/// Bearings of a pinion on rollers with clearance, and a wheel in clearances.
+std::vector<StageBearing> loose_bearings() {
+  auto list = unlike_bearings();
+  list[0].row = stages::row_of_planets();
+  list[0].axial_play = 15e-6;
+  list[2].play = 40e-6;
+  list[2].load_zone = false;
+  list[3].play = 60e-6;
+  return list;
+}
+
+// Bearings act by their law, wherever their stiffness for modes was taken: the equilibrium under another torque is that
+// of the mechanism there.
+BOOST_AUTO_TEST_CASE(bearings_act_by_their_law) {
   annulus::test::Verification record("Helical pair in bearings with clearance", "equilibrium of the mechanism");
-  const auto plain = linear_pair();
-  auto linear = spatial(plain, unlike_bearings());
-  auto loose = linear;
-  loose.bearings[0].play = 40e-6;
-  loose.bearings[0].load_zone = false;  // beyond the clearance it is the same spring
-  const auto a = solved(lumped(plain, linear)), b = solved(lumped(plain, loose));
-  record.close("mesh force", "N", b.force, a.force, 1e-8, "residual of the equilibrium");
-  // The force of a stop points where the shaft has moved, 2e9 N/m beyond 40 um.
-  const auto system = assemble(lumped(plain, loose));
-  const auto at = [&](const char* name) { return b.q[system.find(name)]; };
-  const Eigen::Vector2d d(at("pinion_x") + 0.12 * at("pinion_tilty") / plain.pinion.radius,
-                          at("pinion_y") - 0.12 * at("pinion_tiltx") / plain.pinion.radius);
-  BOOST_TEST(d.norm() > 40e-6);
-  const auto pair = lumped(plain, loose);
-  const auto& found = pair.space->bearings[0];
-  const Eigen::Vector2d force = found.stiffness.topLeftCorner<2, 2>() * d + found.preload.head<2>();
-  record.at_most("force of the bearing with clearance", "",
-                 (force - 2e9 * (d - 40e-6 * d.normalized())).norm() / force.norm(), 1e-6,
-                 "residual of the equilibrium");
+  for (const double sign : {1.0, -1.0}) {
+    auto pair = linear_pair();
+    pair.base_helix_angle *= sign;
+    auto heavier = pair;
+    heavier.pinion_torque *= 2.5;
+    auto about_less = lumped(pair, spatial(pair, loose_bearings()));
+    about_less.pinion_torque = heavier.pinion_torque;
+    const auto about_equilibrium = lumped(heavier, spatial(heavier, loose_bearings()));
+    const auto a = solved(about_less), b = solved(about_equilibrium);
+    const double size = b.q.cwiseAbs().maxCoeff();
+    record.at_most("motions over the largest", "", (a.q - b.q).cwiseAbs().maxCoeff() / size, 1e-8,
+                   "residual of the equilibrium");
+    // The mechanism took its tangents in an equilibrium that it found by itself.
+    const auto motions = bearing_coordinates(about_equilibrium);
+    for (const std::size_t i : {0U, 3U}) {
+      const auto& bearing = about_equilibrium.space->bearings[i];
+      Eigen::VectorXd d(5);
+      for (Eigen::Index c = 0; c < 5; ++c) {
+        d[c] = 0;
+        for (const auto& [dof, factor] : motions[i][static_cast<std::size_t>(c)]) d[c] += factor * b.q[dof];
+      }
+      const Eigen::Matrix2d turn = Eigen::Rotation2Dd(-bearing.law_axes).toRotationMatrix();
+      d.head<2>() = (turn * d.head<2>()).eval();
+      d.tail<2>() = (turn * d.tail<2>()).eval();
+      const auto part = parts_of(*bearing.law, Freedom::space).front();
+      const auto tangent = part.law->at(d(part.coordinates)).tangent;
+      record.close("radial stiffness of bearings, both directions", "N/m", tangent(0, 0) + tangent(1, 1),
+                   bearing.stiffness(0, 0) + bearing.stiffness(1, 1), 1e-6, "residual of the equilibrium");
+    }
+    record.close("mesh force", "N", b.force, heavier.static_force(), 1e-9, "residual of the equilibrium");
+  }
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {

@@ -40,6 +40,11 @@ inline StageBearing bearing(const std::string& name, StageBody body, StageBody o
   return b;
 }
 
+/// A row of rollers of a planet, with clearance.
+inline RollingRow row_of_planets() {
+  return {.count = 18, .diameter = 0.03, .length = 0.05, .clearance = 40e-6, .ring = RollingRow::Ring::outer};
+}
+
 /// SpatialStage::pins of pins that do not act on each other.
 inline Eigen::MatrixXd on_each_planet(const SpatialStage& stage, const Eigen::Matrix<double, 5, 5>& pin) {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(5 * stage.planets(), 5 * stage.planets());
