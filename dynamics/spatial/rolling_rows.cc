@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/ellint_2.hpp>
@@ -100,53 +101,85 @@ class RollerRowLaw final : public RollingRowLaw {
   RollerRowLaw(const RollingRow& row, Freedom freedom) : RollingRowLaw(coordinates_of(row, freedom)) {
     constexpr double per_m = 1e3;  // mm
     stiffness_ = 35948 * std::pow(per_m * row.length, 8.0 / 9) * std::pow(per_m, exponent) / slices;
-    measures_.resize(row.count * slices, size());
-    gaps_.resize(measures_.rows());
     const double angle = inner_angle(row);
-    for (Eigen::Index i = 0; i < measures_.rows(); ++i) {
-      const double share = (2 * static_cast<double>(i % slices) + 1) / slices - 1, along = share * row.length / 2;
-      const double radius = row.pitch_diameter / 2 - along * std::sin(angle), z = along * std::cos(angle);
-      measures_.row(i) =
-          sign_of(row) *
-          taken(displacement(place_of(row, static_cast<int>(i / slices)), radius, z, angle), coordinates());
-      const double profile = -0.00035 * row.diameter * std::log1p(-share * share);
-      gaps_[i] = row.clearance / 2 * std::cos(angle) + 2 * profile;
+    for (std::size_t i = 0; i < slices; ++i) {
+      const double share = (2 * static_cast<double>(i) + 1) / slices - 1;
+      along_[i] = share * row.length / 2;
+      gaps_[i] = row.clearance / 2 * std::cos(angle) + 2 * -0.00035 * row.diameter * std::log1p(-share * share);
+      if (i == 0 || gaps_[i] < least_gap_) least_gap_ = gaps_[i];
     }
-    // When half of the rollers carry.
-    in_contact_ =
-        exponent * stiffness_ * std::pow(usual_approach, exponent - 1) / 2 * measures_.transpose() * measures_;
+    const auto measure = [&](int roller, double along) {
+      const double radius = row.pitch_diameter / 2 - along * std::sin(angle), z = along * std::cos(angle);
+      return Eigen::VectorXd(sign_of(row) *
+                             taken(displacement(place_of(row, roller), radius, z, angle), coordinates()));
+    };
+    middle_.resize(size(), row.count);
+    per_length_.resize(size(), row.count);
+    in_contact_ = Eigen::MatrixXd::Zero(size(), size());
+    double squares = 0;
+    for (const double along : along_) squares += along * along;
+    for (int roller = 0; roller < row.count; ++roller) {
+      middle_.col(roller) = measure(roller, 0);
+      per_length_.col(roller) = (measure(roller, row.length / 2) - middle_.col(roller)) / (row.length / 2);
+      in_contact_ += slices * middle_.col(roller) * middle_.col(roller).transpose() +
+                     squares * per_length_.col(roller) * per_length_.col(roller).transpose();
+    }
+    in_contact_ *= exponent * stiffness_ * std::pow(usual_approach, exponent - 1) / 2;  // when half of them carry
   }
   [[nodiscard]] Eigen::MatrixXd in_contact() const override { return in_contact_; }
 
   [[nodiscard]] State at(const Eigen::VectorXd& deflection) const override {
     State state = in_play(deflection, coordinates(), in_contact_(0, 0));
-    const Eigen::VectorXd approach = measures_ * deflection - gaps_;
-    for (Eigen::Index i = 0; i < approach.size(); ++i) {
-      const double delta = approach[i];
-      if (delta <= 0) continue;
-      const double slope = stiffness_ * std::pow(delta, exponent - 1), force = slope * delta;
-      const auto measure = measures_.row(i).transpose();
-      state.energy += force * delta / (exponent + 1);
-      state.force += force * measure;
-      state.tangent += exponent * slope * measure * measure.transpose();
+    for (Eigen::Index roller = 0; roller < middle_.cols(); ++roller) {
+      const auto [energy, force, moment, tangent, between, tilting] = of_roller(roller, deflection);
+      if (force == 0) continue;
+      const auto a = middle_.col(roller), b = per_length_.col(roller);
+      state.energy += energy;
+      state.force += force * a + moment * b;
+      state.tangent +=
+          tangent * a * a.transpose() + tilting * b * b.transpose() + between * (a * b.transpose() + b * a.transpose());
     }
     return state;
   }
 
   [[nodiscard]] double largest_element_load(const Eigen::VectorXd& deflection) const override {
-    const Eigen::VectorXd approach = measures_ * deflection - gaps_;
     double largest = 0;
-    for (Eigen::Index first = 0; first < approach.size(); first += slices)
-      largest = std::max(largest, stiffness_ * approach.segment(first, slices).cwiseMax(0).array().pow(exponent).sum());
+    for (Eigen::Index roller = 0; roller < middle_.cols(); ++roller)
+      largest = std::max(largest, of_roller(roller, deflection).force);
     return largest;
   }
 
  private:
-  static constexpr int slices = 31;
+  static constexpr std::size_t slices = 31;
   static constexpr double exponent = 10.0 / 9;
-  double stiffness_ = 0;      ///< c_s, N/m^(10/9)
-  Eigen::MatrixXd measures_;  ///< slices x coordinates: approach of the raceways; roller after roller
-  Eigen::VectorXd gaps_;      ///< m, per slice
+
+  /// Sums over the slices of a roller; `moment` and what follows weigh them with their places along it.
+  struct OfRoller {
+    double energy = 0, force = 0, moment = 0, tangent = 0, between = 0, tilting = 0;
+  };
+  [[nodiscard]] OfRoller of_roller(Eigen::Index roller, const Eigen::VectorXd& deflection) const {
+    OfRoller sum;
+    const double middle = middle_.col(roller).dot(deflection), slope = per_length_.col(roller).dot(deflection);
+    if (middle + std::abs(slope * along_.front()) <= least_gap_) return sum;
+    for (std::size_t i = 0; i < slices; ++i) {
+      const double along = along_[i], delta = middle + along * slope - gaps_[i];
+      if (delta <= 0) continue;
+      const double secant = stiffness_ * std::cbrt(std::cbrt(delta)), force = secant * delta;
+      sum.energy += force * delta / (exponent + 1);
+      sum.force += force;
+      sum.moment += along * force;
+      sum.tangent += exponent * secant;
+      sum.between += along * exponent * secant;
+      sum.tilting += along * along * exponent * secant;
+    }
+    return sum;
+  }
+
+  double stiffness_ = 0;                     ///< c_s, N/m^(10/9)
+  std::array<double, slices> along_, gaps_;  ///< m, per slice: place along the roller, gap of the raceways
+  double least_gap_ = 0;
+  /// Coordinates x rollers: approach of the raceways in the middle of a roller, and its change along it, 1/m.
+  Eigen::MatrixXd middle_, per_length_;
   Eigen::MatrixXd in_contact_;
 };
 

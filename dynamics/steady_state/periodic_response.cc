@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "core/errors.h"
 #include "dynamics/statics/static_solver.h"
@@ -68,6 +70,17 @@ Eigen::VectorXd mean_tangents(const LumpedSystem& system, const Eigen::MatrixXd&
   for (Eigen::Index m = 0; m < mean.size(); ++m)
     if (!(mean[m] > 0)) mean[m] = mean_stiffness(system.meshes()[m].excitation);
   return mean;
+}
+
+/// Approaches in the equilibria at all sampled times; nothing where one is not found.
+std::optional<Eigen::MatrixXd> quasi_static(const LumpedSystem& system, HarmonicBalance& balance) {
+  Eigen::VectorXd times(balance.samples());
+  for (Eigen::Index i = 0; i < times.size(); ++i) times[i] = balance.meshes().time(i);
+  try {
+    return (system.mesh_vectors().transpose() * static_path(system, times).displacement).transpose();
+  } catch (const SolverError&) {
+    return std::nullopt;
+  }
 }
 
 void fill(PeriodicResponse& response, HarmonicBalance& balance, const Eigen::MatrixXd& approach) {
@@ -190,6 +203,18 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
     // Where a coarse sampling fails, a finer one would fail or cost too much: the last iterate is returned as it is.
     if (failed) level_options.max_iterations = 0;
     approach = solve_balance(balance, approach, reference.scale, level_options, response);
+    if (level == samples / coarsening && !response.converged) {
+      if (const auto start = quasi_static(system, balance)) {
+        const auto before = std::exchange(response, {});
+        auto again = solve_balance(balance, *start, reference.scale, level_options, response);
+        response.newton_iterations += before.newton_iterations;
+        response.linear_iterations += before.linear_iterations;
+        if (response.residual < before.residual)
+          approach = std::move(again);
+        else
+          response = before;
+      }
+    }
     failed = failed || response.residual > std::max(level_options.tolerance, level < samples ? out_of_reach : 0.0);
     if (2 * level >= samples) fill(response, balance, approach);
     if (level == samples) balance.motion(response.displacement, response.velocity);
