@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace annulus::dynamics {
 
@@ -11,6 +12,26 @@ namespace {
 
 double damping_in(const MeshElement& mesh, Contact contact) {
   return contact != Contact::open || mesh.damping_without_contact ? mesh.damping : 0.0;
+}
+
+/// All pairs of meshes that laws, faces and couplings join, and every mesh with itself.
+std::vector<std::pair<Eigen::Index, Eigen::Index>> coupled_pairs(const LumpedSystem& system) {
+  std::vector<std::size_t> group(system.meshes().size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto join = [&](int a, int b) {
+    const auto from = group[static_cast<std::size_t>(b)], to = group[static_cast<std::size_t>(a)];
+    std::replace(group.begin(), group.end(), from, to);
+  };
+  for (const auto& coupling : system.couplings())
+    for (const int m : coupling.meshes) join(coupling.meshes.front(), m);
+  for (const auto& element : system.laws())
+    for (const int m : element.meshes) join(element.meshes.front(), m);
+  for (const auto& face : system.faces()) join(face.approach, face.tilt);
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
+  for (std::size_t i = 0; i < group.size(); ++i)
+    for (std::size_t j = 0; j < group.size(); ++j)
+      if (group[i] == group[j]) pairs.emplace_back(i, j);
+  return pairs;
 }
 
 }  // namespace
@@ -23,7 +44,8 @@ SampledMeshes::SampledMeshes(const LumpedSystem& system, double period, Eigen::I
   for (auto* v : {&approach_, &rate_, &moved_, &force_}) v->resize(meshes);
   whole_.resize(system.meshes().size());
   if (system.has_coupled_meshes()) {
-    coupled_.resize(meshes, meshes * samples);
+    pairs_ = coupled_pairs(system);
+    coupled_.resize(samples, std::ssize(pairs_));
     block_.resize(meshes, meshes);
   }
   if (!std::isfinite(system.next_jump(0))) return;
@@ -77,10 +99,11 @@ void SampledMeshes::add_piece(Eigen::Index sample, const Piece& piece) {
   auto& w = workspace_;
   const auto& meshes = system_.meshes();
   system_.evaluate_forces(piece.middle, approach_.data(), rate_.data(), w);
-  const bool coupled = coupled_.size() != 0;
+  const bool coupled = !pairs_.empty();
   if (coupled) {
     system_.tangent_matrix(w, block_);
-    coupled_.middleCols(sample * block_.cols(), block_.cols()) += weight * block_;
+    for (std::size_t k = 0; k < pairs_.size(); ++k)
+      coupled_(sample, static_cast<Eigen::Index>(k)) += weight * block_(pairs_[k].first, pairs_[k].second);
   }
   bool all_whole = true;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
@@ -146,17 +169,15 @@ void SampledMeshes::add_partial_contact(Eigen::Index sample, const Piece& piece,
 
 void SampledMeshes::apply_tangent(const Eigen::Ref<const Eigen::MatrixXd>& change, const Eigen::VectorXd& mean,
                                   Eigen::Ref<Eigen::MatrixXd> force) const {
-  if (coupled_.size() == 0) {
-    for (Eigen::Index m = 0; m < change.cols(); ++m)
+  const bool coupled = !pairs_.empty();
+  for (Eigen::Index m = 0; m < change.cols(); ++m)
+    if (coupled)
+      force.col(m) = -mean[m] * change.col(m);
+    else
       force.col(m).array() = (tangent_.col(m).array() - mean[m]) * change.col(m).array();
-    return;
-  }
-  Eigen::VectorXd here(mean.size()), there(mean.size());
-  for (Eigen::Index i = 0; i < samples_; ++i) {
-    here = change.row(i);
-    there.noalias() = coupled_.middleCols(i * mean.size(), mean.size()).lazyProduct(here);
-    force.row(i) = there - mean.cwiseProduct(here);
-  }
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    force.col(pairs_[k].first).array() +=
+        coupled_.col(static_cast<Eigen::Index>(k)).array() * change.col(pairs_[k].second).array();
 }
 
 void SampledMeshes::evaluate_at_instants(const Eigen::MatrixXd& approach, const Eigen::MatrixXd& rate,

@@ -51,7 +51,8 @@ class SampledMeshes {
   double step_ = 0;
   std::vector<std::vector<Piece>> pieces_;  // per sample; empty when no stiffness jumps
   Eigen::MatrixXd tangent_, damping_;
-  Eigen::MatrixXd coupled_, block_;  // with coupled meshes: meshes x (meshes samples), one block per sample
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs_;  // meshes whose force depends on another's deflection
+  Eigen::MatrixXd coupled_, block_;  // dF/d delta of the pairs, samples x pairs; meshes x meshes
   // Present sample, per mesh.
   Eigen::VectorXd approach_, rate_, moved_, force_;
   std::vector<char> whole_;  // the contact state does not change within the step

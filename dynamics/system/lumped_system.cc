@@ -169,18 +169,16 @@ void LumpedSystem::tangent_matrix(const Workspace& w, Eigen::Ref<Eigen::MatrixXd
   for (const auto& element : laws_)
     for (const int i : element.meshes)
       for (const int j : element.meshes) result(i, j) = *of_law++;
-  if (faces_.empty()) return;
   // A tilt changes the force of its own mesh as k_x/k of an approach would, k_x across and k of the mesh alone; what
   // the coupling does to that change comes back to all tilts.
-  Eigen::MatrixXd tilts = Eigen::MatrixXd::Zero(result.rows(), result.cols());
+  const auto share = [&](std::size_t i) { return w.across_face[i] / w.tangent[faces_[i].approach]; };
   for (std::size_t i = 0; i < faces_.size(); ++i) {
-    const auto& face = faces_[i];
-    const double share = w.across_face[i] / w.tangent[face.approach];
-    tilts(face.approach, face.tilt) = share;
-    result(face.tilt, face.tilt) = w.tangent[face.tilt] - share * w.across_face[i];
+    const auto tilt = faces_[i].tilt;
+    result(tilt, tilt) = w.tangent[tilt] - share(i) * w.across_face[i];
+    result.col(tilt) += share(i) * result.col(faces_[i].approach);
   }
-  const Eigen::MatrixXd across = result * tilts;
-  result += across + across.transpose() + tilts.transpose() * across;
+  for (std::size_t i = 0; i < faces_.size(); ++i)
+    result.row(faces_[i].tilt) += share(i) * result.row(faces_[i].approach);
 }
 
 void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixXd> result, Workspace& w) const {

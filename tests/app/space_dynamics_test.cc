@@ -117,7 +117,8 @@ BOOST_AUTO_TEST_CASE(what_is_assumed_is_said_and_bearings_can_be_studied) {
       "[[sweep]]\ninput = \"bearing.spline.tilt_Nm_per_rad\"\nfrom = 1e5\nto = 1e8\ncount = 2\nscale = "
       "\"logarithmic\"\n";
   const auto summary = run(folder, scene);
-  for (const char* code : {"tilt_inertia_assumed", "bearings_linear"}) BOOST_TEST(warns(summary, code), code);
+  BOOST_TEST(warns(summary, "tilt_inertia_assumed"));
+  BOOST_TEST(!warns(summary, "bearings_linear"));
   BOOST_TEST(!warns(summary, "supports_left_out"));
   BOOST_TEST(!warns(summary, "mass_in_middle"));  // planets have their weight there
   // Without an axial bearing the carrier screws itself along the axis.
