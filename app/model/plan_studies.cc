@@ -45,7 +45,8 @@ std::string row_text(const Scene& scene, const SweepInput& s) {
 std::vector<StudyPlan> plan_studies(const Scene& scene) {
   std::vector<StudyPlan> list;
   const auto sampling = sampling_of(scene);
-  const bool any = !scene.sweeps.empty() || !scene.grids.empty() || sampling || scene.sensitivity || scene.optimise;
+  const bool any = !scene.sweeps.empty() || !scene.grids.empty() || scene.load_spectrum || sampling ||
+                   scene.sensitivity || scene.optimise;
   if (!any || !scene.dynamics) return list;
   const auto system = make_system(scene);
   const auto variants = static_cast<long>(system->variants().size());
@@ -79,6 +80,10 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
   for (std::size_t i = 0; i < scene.grids.size(); ++i)
     add_cases(fmt::format("[[grid]] {}", i + 1),
               row_text(scene, scene.grids[i].x) + "; " + row_text(scene, scene.grids[i].y), grid_cases(scene, i));
+  if (scene.load_spectrum)
+    add_cases("[load_spectrum]",
+              fmt::format("{} classes of {}", scene.load_classes.size(), fmt::join(scene.load_spectrum->inputs, ", ")),
+              load_cases(scene));
   if (sampling)
     add("[monte_carlo]",
         sampling->by_default

@@ -172,6 +172,29 @@ std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid) {
                       place_text(scene, "grid.x_input", grid));
 }
 
+std::vector<StudyCase> load_cases(const Scene& scene) {
+  std::vector<StudyCase> cases;
+  if (!scene.load_spectrum) return cases;
+  const auto& inputs = scene.load_spectrum->inputs;
+  for (std::size_t n = 0; n < scene.load_classes.size(); ++n) {
+    const auto& load = scene.load_classes[n];
+    StudyCase made;
+    std::vector<std::string> texts, folder;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      made.overrides.push_back({inputs[i], load.values[i]});
+      texts.push_back(inputs[i] + " = " + to_text(load.values[i]));
+      folder.push_back(file_name(inputs[i]));
+      folder.push_back(to_text(load.values[i], 15));
+    }
+    made.where = fmt::format("[[load_spectrum.class]] '{}' ({})", load.name, fmt::join(texts, ", "));
+    made.folder = fmt::format("load_spectrum/{}", fmt::join(folder, "_"));
+    made.place = place_text(scene, "load_spectrum.class.values", n);
+    made.other_motions = true;
+    cases.push_back(std::move(made));
+  }
+  return cases;
+}
+
 std::vector<std::string> sensitivity_inputs(const Scene& scene) {
   if (!scene.sensitivity) return {};
   if (!scene.sensitivity->inputs.empty()) return scene.sensitivity->inputs;
@@ -212,6 +235,7 @@ std::vector<StudyCase> all_cases(const Scene& scene) {
   const auto add = [&](const std::vector<StudyCase>& cases) { all.insert(all.end(), cases.begin(), cases.end()); };
   for (std::size_t i = 0; i < scene.sweeps.size(); ++i) add(sweep_cases(scene, i));
   for (std::size_t i = 0; i < scene.grids.size(); ++i) add(grid_cases(scene, i));
+  add(load_cases(scene));
   add(sensitivity_cases(scene));
   return all;
 }

@@ -37,13 +37,16 @@ struct StudyCase {
 /// One per point of the grid, x fastest.
 [[nodiscard]] std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid);
 
+/// One per class of the load spectrum.
+[[nodiscard]] std::vector<StudyCase> load_cases(const Scene& scene);
+
 /// The inputs of [sensitivity]: those listed, or the finite supports, damping ratios and backlash
 /// (of a 2K-V stage: stiffnesses and inertias besides).
 [[nodiscard]] std::vector<std::string> sensitivity_inputs(const Scene& scene);
 /// Two per input: divided, multiplied.
 [[nodiscard]] std::vector<StudyCase> sensitivity_cases(const Scene& scene);
 
-/// The cases of all sweeps, grids and [sensitivity].
+/// The cases of all sweeps, grids, the load spectrum and [sensitivity].
 [[nodiscard]] std::vector<StudyCase> all_cases(const Scene& scene);
 
 /// One random number of every sample.

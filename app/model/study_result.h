@@ -9,6 +9,7 @@
 #include "app/scene/scene.h"
 #include "core/csv.h"
 #include "core/figure.h"
+#include "core/not_known.h"
 #include "dynamics/optimisation/optimise.h"
 #include "dynamics/statistics/statistics.h"
 
@@ -38,6 +39,22 @@ struct GridResult {
   std::vector<double> x, y;
   int tables = 0;
   std::vector<std::vector<StudyPoint>> variants;  ///< [variant][y * x.size() + x]
+};
+
+/// Results of every class of a load spectrum.
+struct LoadSpectrumResult {
+  std::vector<std::string> inputs, units;
+  std::vector<LoadClassInput> classes;
+  int tables = 0;
+  std::vector<std::vector<StudyPoint>> variants;  ///< [variant][class]
+
+  /// Over all classes; not known where one failed.
+  struct Overall {
+    std::size_t of_class = 0;                      ///< that of the largest value
+    double largest = not_known, mean = not_known;  ///< mean: over the time
+  };
+  [[nodiscard]] Overall overall(std::size_t variant, const std::string& figure) const;
+  [[nodiscard]] double duration() const;  ///< s
 };
 
 struct FigureStatistics {
@@ -135,6 +152,7 @@ struct StudyResults {
   std::vector<FigureSet> nominal{};  ///< by variant
   std::vector<SweepResult> sweeps{};
   std::vector<GridResult> grids{};
+  std::optional<LoadSpectrumResult> load_spectrum{};
   std::optional<MonteCarloResult> monte_carlo{};
   std::optional<SensitivityResult> sensitivity{};
   std::optional<OptimiseResults> optimise{};

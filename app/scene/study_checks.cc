@@ -31,6 +31,7 @@ class StudyChecker : KeyChecks {
     for (std::size_t i = 0; i < scene_.sweeps.size(); ++i) row("sweep.", scene_.sweeps[i], i);
     for (std::size_t i = 0; i < scene_.grids.size(); ++i) grid(scene_.grids[i], i);
     for (std::size_t i = 0; i < scene_.random_inputs.size(); ++i) random(scene_.random_inputs[i], i);
+    load_spectrum();
     optimise();
     if (scene_.monte_carlo && scene_.monte_carlo->samples == 1)
       problem("monte_carlo.samples", "one sample has no spread; give 0 for none, or 2 or more");
@@ -84,6 +85,37 @@ class StudyChecker : KeyChecks {
       problem("grid.x_input", i,
               fmt::format("has {} x {} points, at most {} are possible; take fewer values", count(g.x), count(g.y),
                           most_points));
+  }
+
+  void load_spectrum() {
+    if (!scene_.load_spectrum || !usable("load_spectrum.inputs")) return;
+    const auto& inputs = scene_.load_spectrum->inputs;
+    const auto& classes = scene_.load_classes;
+    for (auto path = inputs.begin(); path != inputs.end(); ++path) {
+      if (!input("load_spectrum.inputs", 0, *path)) return;
+      if (std::find(inputs.begin(), path, *path) != path)
+        return problem("load_spectrum.inputs", *path + " is named twice; leave one out");
+    }
+    if (classes.empty()) problem("load_spectrum.inputs", "needs a [[load_spectrum.class]] at least");
+    for (std::size_t i = 0; i < classes.size(); ++i) load_class(inputs, classes[i], i);
+  }
+
+  void load_class(const std::vector<std::string>& inputs, const LoadClassInput& load, std::size_t i) {
+    const std::string table = "load_spectrum.class.";
+    if (!usable(table + "values", i) || !usable(table + "name", i)) return;
+    const auto end = scene_.load_classes.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::any_of(scene_.load_classes.begin(), end, [&](const auto& other) { return other.name == load.name; }))
+      problem(table + "name", i, "is the name of another class");
+    if (load.values.size() != inputs.size())
+      return problem(table + "values", i,
+                     fmt::format("has {} values for {} inputs; give one for each", load.values.size(), inputs.size()));
+    for (std::size_t k = 0; k < inputs.size(); ++k) {
+      const auto& parameter = *find_input(scene_, inputs[k]).parameter;
+      if (!parameter.in_range(load.values[k]))
+        problem(
+            table + "values", i,
+            fmt::format("{} = {} must be in range: {}", inputs[k], to_text(load.values[k]), parameter.range_text()));
+    }
   }
 
   /// Whether a table before the `i`-th names the same input.

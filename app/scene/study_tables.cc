@@ -75,6 +75,32 @@ Table grid_table() {
   return grid;
 }
 
+Table load_spectrum_table() {
+  Declarations spectrum("load_spectrum",
+                        "Classes of load, each with the time that it lasts. Every class is a response of its own; over "
+                        "all of them results have their largest value and their mean over the time.",
+                        &Scene::load_spectrum);
+  spectrum.study();
+  spectrum
+      .key("inputs", &LoadSpectrumInput::inputs,
+           std::string("Inputs that change from class to class, torque and speed say: ") + path_meaning)
+      .not_empty("input")
+      .required();
+  return spectrum.done();
+}
+
+Table load_class_table() {
+  Declarations load("load_spectrum.class", "A class of the load spectrum.", &Scene::load_classes);
+  load.study().only_if(given("[load_spectrum]"), "it contains the inputs");
+  load.key("name", &LoadClassInput::name, "Name in results.").required();
+  load.key("duration_h", &LoadClassInput::duration, "How long the class lasts.").required().above(0, 1e9);
+  load.key("values", &LoadClassInput::values, "Values of load_spectrum.inputs in their order and units.")
+      .from(-1e14, 1e14)
+      .not_empty("value")
+      .required();
+  return load.done();
+}
+
 Table monte_carlo_table() {
   Declarations monte_carlo(
       "monte_carlo",
@@ -214,8 +240,8 @@ Table variable_table() {
 }  // namespace
 
 std::vector<Table> study_tables() {
-  return {sweep_table(),       grid_table(),     monte_carlo_table(), random_input_table(),
-          sensitivity_table(), optimise_table(), variable_table()};
+  return {sweep_table(),        grid_table(),        load_spectrum_table(), load_class_table(), monte_carlo_table(),
+          random_input_table(), sensitivity_table(), optimise_table(),      variable_table()};
 }
 
 }  // namespace annulus::app

@@ -118,6 +118,7 @@ StudyResults run_studies(const StudySubject& subject) {
     timed(fmt::format("[[sweep]] {}", i + 1), [&] { results.sweeps.push_back(run_sweep(subject, i)); });
   for (std::size_t i = 0; i < scene.grids.size(); ++i)
     timed(fmt::format("[[grid]] {}", i + 1), [&] { results.grids.push_back(run_grid(subject, i)); });
+  if (scene.load_spectrum) timed("[load_spectrum]", [&] { results.load_spectrum = run_load_spectrum(subject); });
   if (const auto sampling = sampling_of(scene))
     timed("[monte_carlo]", [&] { results.monte_carlo = run_monte_carlo(subject, *sampling); });
   if (scene.optimise) timed("[optimise]", [&] { results.optimise = run_optimise(subject); });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace annulus::app {
 
@@ -62,6 +63,31 @@ Json branches_json(const SweepBranches& found) {
 
 }  // namespace
 
+namespace {
+
+Json load_spectrum_json(const StudyResults& studies, std::size_t variant) {
+  const auto& spectrum = *studies.load_spectrum;
+  Json json = {{"file", "load_spectrum.csv"}, {"duration_h", spectrum.duration() / LoadClassInput::hour}};
+  for (std::size_t n = 0; n < spectrum.classes.size(); ++n) {
+    const auto& load = spectrum.classes[n];
+    Json one = {{"name", load.name}, {"duration_h", load.duration / LoadClassInput::hour}};
+    for (std::size_t i = 0; i < spectrum.inputs.size(); ++i) one["inputs"][spectrum.inputs[i]] = load.values[i];
+    one["results"] = point_json(studies, spectrum.variants.at(variant)[n]);
+    json["classes"].push_back(std::move(one));
+  }
+  for (const auto& figure : studies.figures) {
+    if (figure.effort == FigureEffort::motion) continue;
+    const auto all = spectrum.overall(variant, figure.key);
+    if (std::isnan(all.largest)) continue;
+    json["over_all_classes"][figure.key] = {{"largest", json_number(all.largest)},
+                                            {"in_class", spectrum.classes[all.of_class].name},
+                                            {"mean_over_time", json_number(all.mean)}};
+  }
+  return json;
+}
+
+}  // namespace
+
 Json variant_studies_json(const StudyResults& studies, std::size_t variant) {
   Json all = Json::object();
   if (studies.monte_carlo) {
@@ -94,6 +120,7 @@ Json variant_studies_json(const StudyResults& studies, std::size_t variant) {
                                        fmt::format("grid_{}.csv", n + 1), {{"x", grid.x}, {"y", grid.y}}, studies,
                                        grid.variants.at(variant)));
   }
+  if (studies.load_spectrum) all["load_spectrum"] = load_spectrum_json(studies, variant);
   return all;
 }
 

@@ -7,7 +7,7 @@
 namespace annulus::app {
 
 [[nodiscard]] Json interval_json(const dynamics::Interval& interval);
-/// "monte_carlo", "sweeps" and "grids" of one variant.
+/// "monte_carlo", "sweeps", "grids" and "load_spectrum" of one variant.
 [[nodiscard]] Json variant_studies_json(const StudyResults& studies, std::size_t variant);
 /// "monte_carlo" (orders of the variants) and "sensitivity".
 [[nodiscard]] Json studies_json(const StudyResults& studies);

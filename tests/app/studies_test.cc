@@ -55,6 +55,57 @@ constexpr const char* few_samples = "[monte_carlo]\nsamples = 45\nseed = 5\n";
 
 BOOST_AUTO_TEST_SUITE(studies)
 
+BOOST_AUTO_TEST_CASE(load_classes_are_the_runs_they_stand_for) {
+  const test::TemporaryFolder folder("load_spectrum");
+  const auto text = two_masses(short_scene());
+  const std::string classes =
+      "[load_spectrum]\ninputs = [\"stage.power_kW\", \"stage.sun_speed_rpm\"]\n"
+      "[[load_spectrum.class]]\nname = \"rated\"\nduration_h = 3000\nvalues = [200, 1500]\n"
+      "[[load_spectrum.class]]\nname = \"half speed\"\nduration_h = 1000\nvalues = [50, 750]\n";
+  const auto result = run_text(text + classes, folder.path() / "all");
+  BOOST_TEST_REQUIRE(result.studies.load_spectrum.has_value());
+  const auto& found = *result.studies.load_spectrum;
+  auto slow = test::replaced(text, "sun_speed_rpm = 1500", "sun_speed_rpm = 750");
+  slow = test::replaced(slow, "power_kW = 200", "power_kW = 50");
+  const auto alone = run_text(slow, folder.path() / "alone");
+  for (std::size_t ring = 0; ring < 2; ++ring) {
+    const double nominal = result.rings[ring].response->figures.sun_planet.load_sharing.averaged.value,
+                 other = alone.rings[ring].response->figures.sun_planet.load_sharing.averaged.value;
+    BOOST_TEST(averaged(found.variants[ring][0]) == nominal);
+    BOOST_TEST(averaged(found.variants[ring][1]) == other);
+    const auto all = found.overall(ring, ordering_figure);
+    BOOST_TEST(all.largest == std::max(nominal, other));
+    BOOST_TEST(all.of_class == (nominal > other ? 0U : 1U));
+    BOOST_TEST(all.mean == (3 * nominal + other) / 4, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(nominal != other);
+  }
+  const auto csv = Csv::read(folder.path() / "all/heavy/dynamics/load_spectrum.csv");
+  BOOST_TEST(column(csv, "duration_h") == (std::vector<double>{3000, 1000}), boost::test_tools::per_element());
+  const auto summary = nlohmann::json::parse(read_file(folder.path() / "all/summary.json"));
+  const auto& json = summary.at("rings").at("held").at("load_spectrum");
+  BOOST_TEST(json.at("classes").at(1).at("name") == "half speed");
+  BOOST_TEST(json.at("over_all_classes").at(ordering_figure).contains("mean_over_time"));
+  BOOST_TEST(read_file(folder.path() / "all/report.html").find("mean over the time") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(load_classes_that_do_not_fit_are_refused) {
+  const auto refused = [&](const std::string& classes, const std::string& why) {
+    try {
+      (void)app::parse_scene(short_scene() + "[load_spectrum]\ninputs = [\"stage.sun_speed_rpm\"]\n" + classes,
+                             "scene.toml");
+      BOOST_TEST(false, why);
+    } catch (const app::SceneError& error) {
+      BOOST_TEST(std::string(error.what()).find(why) != std::string::npos, error.what());
+    }
+  };
+  const std::string one = "[[load_spectrum.class]]\nname = \"a\"\nduration_h = 1\nvalues = [100]\n";
+  refused("", "needs a [[load_spectrum.class]]");
+  refused(test::replaced(one, "[100]", "[100, 200]"), "has 2 values for 1 inputs");
+  refused(test::replaced(one, "[100]", "[-1e13]"), "must be in range");
+  refused(one + one, "is the name of another class");
+  refused(test::replaced(one, "duration_h = 1", "duration_h = 0"), "duration_h");
+}
+
 BOOST_AUTO_TEST_CASE(sweep_points_are_the_runs_they_stand_for) {
   const test::TemporaryFolder folder("sweep");
   const auto text = two_masses(short_scene());

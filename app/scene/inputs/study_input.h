@@ -71,6 +71,18 @@ struct OptimiseInput {
   int starts = 0;  ///< initial conditions tried before and after
 };
 
+/// Inputs that change from class to class of a load spectrum.
+struct LoadSpectrumInput {
+  std::vector<std::string> inputs;  ///< key paths
+};
+
+struct LoadClassInput {
+  std::string name;
+  static constexpr double hour = 3600;  ///< s
+  double duration = 0;                  ///< s
+  std::vector<double> values;           ///< one per input
+};
+
 struct SensitivityInput {
   std::vector<std::string> inputs;  ///< empty: the supports, damping ratios and backlash
   double factor = 0;
@@ -80,6 +92,8 @@ struct SensitivityInput {
 struct StudyInput {
   std::vector<SweepInput> sweeps;
   std::vector<GridInput> grids;
+  std::optional<LoadSpectrumInput> load_spectrum;
+  std::vector<LoadClassInput> load_classes;
   std::optional<MonteCarloInput> monte_carlo;
   std::vector<RandomInput> random_inputs;
   std::optional<SensitivityInput> sensitivity;
