@@ -60,13 +60,13 @@ BOOST_AUTO_TEST_CASE(load_classes_are_the_runs_they_stand_for) {
   const auto text = two_masses(short_scene());
   const std::string classes =
       "[load_spectrum]\ninputs = [\"stage.power_kW\", \"stage.sun_speed_rpm\"]\n"
-      "[[load_spectrum.class]]\nname = \"rated\"\nduration_h = 3000\nvalues = [200, 1500]\n"
-      "[[load_spectrum.class]]\nname = \"half speed\"\nduration_h = 1000\nvalues = [50, 750]\n";
+      "[[load_spectrum.class]]\nname = \"rated\"\nduration_h = 3000\nvalues = [2958.8, 1128]\n"
+      "[[load_spectrum.class]]\nname = \"half speed\"\nduration_h = 1000\nvalues = [739.7, 564]\n";
   const auto result = run_text(text + classes, folder.path() / "all");
   BOOST_TEST_REQUIRE(result.studies.load_spectrum.has_value());
   const auto& found = *result.studies.load_spectrum;
-  auto slow = test::replaced(text, "sun_speed_rpm = 1500", "sun_speed_rpm = 750");
-  slow = test::replaced(slow, "power_kW = 200", "power_kW = 50");
+  auto slow = test::replaced(text, "sun_speed_rpm = 1128", "sun_speed_rpm = 564");
+  slow = test::replaced(slow, "power_kW = 2958.8", "power_kW = 739.7");
   const auto alone = run_text(slow, folder.path() / "alone");
   for (std::size_t ring = 0; ring < 2; ++ring) {
     const double nominal = result.rings[ring].response->figures.sun_planet.load_sharing.averaged.value,
