@@ -64,13 +64,17 @@ class BeyondStiffness final : public ForceLaw {
 
 }  // namespace
 
-void act_by_law(LinearBearing& linear, const StageBearing& bearing, double axes) {
-  const auto parts = bent_parts(bearing);
-  if (parts.empty()) return;
+void give_law(LinearBearing& linear, const StageBearing& bearing, double axes) {
+  if (!bends(bearing)) return;
   linear.law = bearing;
   linear.law_axes = axes;
-  for (const auto& part : parts)
-    for (const int i : part.coordinates) linear.preload[i] = linear.standing[i] = 0;
+}
+
+LinearBearing beside_law(LinearBearing bearing) {
+  if (bearing.law)
+    for (const auto& part : bent_parts(*bearing.law))
+      for (const int i : part.coordinates) bearing.preload[i] = bearing.standing[i] = 0;
+  return bearing;
 }
 
 void add_bearing_law(LumpedSystemBuilder& builder, const LinearBearing& bearing, const std::vector<LinearForm>& motion,

@@ -8,9 +8,10 @@
 
 namespace annulus::dynamics {
 
-/// Gives a bearing its whole law, `bearing`, if that bends: forces that its stiffness leaves to it become zero. `axes`:
-/// LinearBearing::law_axes.
-void act_by_law(LinearBearing& linear, const StageBearing& bearing, double axes = 0);
+/// Gives a bearing its whole law, `bearing`, if that bends. `axes`: LinearBearing::law_axes.
+void give_law(LinearBearing& linear, const StageBearing& bearing, double axes = 0);
+/// Without the forces f in coordinates in which its law acts.
+[[nodiscard]] LinearBearing beside_law(LinearBearing bearing);
 
 /// Adds the forces of a bearing's law beyond those of its stiffness, as meshes with names that begin with that of its
 /// element; nothing for a bearing without law. `motion`: its coordinates in its place. `length`: m, by which tilts are

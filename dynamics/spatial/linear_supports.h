@@ -14,8 +14,7 @@ namespace annulus::dynamics {
 
 /// A bearing about its working point, in a place on the axis of `body`. Its coordinates d are the
 /// displacement (x, y, z; m) and the tilt (about x, y; rad) of `body` against `on` there, in the axes of the body:
-/// radial, tangential and axial for planets, those of the carrier for others. It acts on the body with -(K d + f), or
-/// by a law.
+/// radial, tangential and axial for planets, those of the carrier for others. It acts on the body with -(K d + f).
 struct LinearBearing {
   using Stiffness = Eigen::Matrix<double, 5, 5>;
   using Vector = Eigen::Matrix<double, 5, 1>;
@@ -27,8 +26,7 @@ struct LinearBearing {
   Vector preload = Vector::Zero();          ///< f: N, N m
   /// A part of f that stands still in the housing, in the axes of the carrier at time 0; of bearings there alone.
   Vector standing = Vector::Zero();
-  /// The whole bearing, where its force bends (act_by_law()). In coordinates with such forces K serves modes and
-  /// dampers alone, and the bearing acts by its law.
+  /// The whole bearing, where its force bends (SpaceSupports::laws).
   std::optional<StageBearing> law{};
   double law_axes = 0;  ///< rad, about z: the axes of the law from those of the body
   /// Its name among springs, in columns and in groups of modal energy: "planet1_upwind_row".
@@ -63,6 +61,9 @@ struct StandingLoad {
 
 /// Bearings and loads of bodies that move along the axis and tilt, for small motions.
 struct SpaceSupports {
+  /// By their whole law bearings act in the coordinates in which their force bends; K then serves modes and dampers
+  /// alone there.
+  BearingLaws laws = BearingLaws::tangents;
   std::vector<LinearBearing> bearings{};
   std::vector<LinearCoupling> couplings{};
   std::vector<SpaceLoad> loads{};

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "dynamics/spatial/bearing_laws.h"
 #include "dynamics/system/support.h"
 
 namespace annulus::dynamics {
@@ -144,7 +145,8 @@ class SpaceBodies {
   }
 
   void add_bearing(std::size_t index) {
-    const LinearBearing& bearing = supports_.bearings[index];
+    const auto& given = supports_.bearings[index];
+    const auto bearing = supports_.laws == BearingLaws::whole ? beside_law(given) : given;
     const auto d = motion_of(bearing);
     const auto move = to_place(bearing.place);
     const Vector force = move.transpose() * bearing.preload;

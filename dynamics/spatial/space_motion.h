@@ -17,6 +17,9 @@ struct SpaceMotion {
     /// N, N m: x, y, z, about x, about y in the axes of the body, on the body, x times; without its dampers. Not known
     /// in rigid coordinates.
     Eigen::MatrixXd force;
+    /// Of a bearing with its tangents: the largest difference of force, and moment over half the face width, to its
+    /// whole law, over the mean mesh force.
+    double law_deviation = 0;
   };
   static constexpr double light = 0.05;  ///< of the mean force: where a mesh carries less, its place says nothing
   struct Mesh {

@@ -18,6 +18,9 @@ struct StageBody {
 /// Motions of bodies: in the plane alone, or along the axis and tilting as well.
 enum class Freedom { plane, space };
 
+/// How bearings whose force bends act in motion: with their tangents in the equilibrium, or by their whole law.
+enum class BearingLaws { tangents, whole };
+
 /// Frames in which bearings, loads and results are stated. z points along the axis in all of them.
 ///
 /// carrier: x towards planet 0. housing: that of the carrier at time 0. planet: x radially outwards through the

@@ -91,6 +91,31 @@ BOOST_AUTO_TEST_CASE(forces_of_bearings) {
   BOOST_TEST(std::filesystem::exists(folder.path() / "out/dynamics/bearings_in_space.csv"));
 }
 
+// At rest a bearing with clearance does what its tangent says; a vibration leaves the tangent, which the run measures.
+BOOST_AUTO_TEST_CASE(bearings_by_their_tangents_and_by_their_laws) {
+  test::Verification record("A helical pair in its bearings", "bearings by their laws");
+  const test::TemporaryFolder folder("pair_in_space_4");
+  const auto loose = test::replaced(bearings(), "at_mm = 130\n", "at_mm = 130\nclearance_um = 40\n");
+  const auto whole = [](const std::string& scene) {
+    return test::replaced(scene, "[dynamics]\n", "[dynamics]\nbearing_laws = \"whole\"\n");
+  };
+  const auto near = [](const Json& response) { return response.at("bearings_in_space").at("pinion_near"); };
+  const auto deviation = [&](const Json& response) {
+    return near(response).at("law_deviation_of_mesh_force").get<double>();
+  };
+  const auto still = pair_scene() + loose,
+             moving = pair_scene("14", "stiffness = \"harmonic\"\nripple = 0.3\n") + loose;
+  const auto at_rest = response_of(folder, still), at_rest_by_law = response_of(folder, whole(still));
+  record.at_most("deviation of the tangents at rest", "", deviation(at_rest), 1e-6, "residual of the motion");
+  record.close("radial force at rest", "N", near(at_rest).at("radial_mean_N"), near(at_rest_by_law).at("radial_mean_N"),
+               1e-6, "residual of the motion");
+  const auto tangents = response_of(folder, moving), laws = response_of(folder, whole(moving));
+  BOOST_TEST(deviation(tangents) > 1e-4);
+  BOOST_TEST(deviation(laws) == 0);
+  const double by_tangents = near(tangents).at("radial_max_N"), by_laws = near(laws).at("radial_max_N");
+  BOOST_TEST(by_tangents != by_laws);
+}
+
 // The mirror image along the axis has the other hand and its bearings on the other side.
 BOOST_AUTO_TEST_CASE(mirror_image) {
   test::Verification record("A helical pair in its bearings", "symmetry");

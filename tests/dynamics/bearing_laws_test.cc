@@ -73,8 +73,8 @@ BOOST_AUTO_TEST_CASE(forces_are_those_of_the_law) {
   bearing.stiffness =
       Stiffness::Constant(1e5) + Stiffness(Eigen::Vector<double, 5>(2e8, 3e8, 1e8, 2e5, 4e5).asDiagonal());
   bearing.preload.setConstant(100);
-  act_by_law(bearing, ball_row(), axes);
-  BOOST_TEST(bearing.preload.isZero(0));
+  give_law(bearing, ball_row(), axes);
+  BOOST_TEST(beside_law(bearing).preload.isZero(0));
   const auto [system, motion] = held(bearing, 0.05);
   Eigen::Vector<double, 10> y = Eigen::Vector<double, 10>::Zero();
   y.head<5>() << 25e-6, -12e-6, 30e-6, 2e-4, -1e-4;
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(whirl_in_a_clearance) {
   bearing.name = stop.name;
   bearing.body = stop.body;
   bearing.stiffness(0, 0) = bearing.stiffness(1, 1) = 0.4 * k;
-  act_by_law(bearing, stop);
+  give_law(bearing, stop);
   for (const double speed : {100.0, 400.0, 1200.0}) {
     LumpedSystemBuilder builder;
     const std::vector<LinearForm> motion{builder.add_dof("x"), builder.add_dof("y"), {}, {}, {}};

@@ -44,8 +44,9 @@ SpatialPair spatial(const HelicalPair& pair, std::vector<StageBearing> bearings)
 
 constexpr double tilting_pinion = 3, tilting_wheel = 40;
 
-HelicalPair lumped(HelicalPair pair, const SpatialPair& s) {
+HelicalPair lumped(HelicalPair pair, const SpatialPair& s, BearingLaws laws = BearingLaws::tangents) {
   pair.space = pair_about_equilibrium(s, tilting_pinion, tilting_wheel);
+  pair.space->laws = laws;
   return pair;
 }
 
@@ -283,6 +284,30 @@ BOOST_AUTO_TEST_CASE(the_plane_is_a_setting) {
   compare(spur, s, "spur gears");
 }
 
+// A clearance moves the gear until its bearing carries; it has its tangent there.
+BOOST_AUTO_TEST_CASE(bearings_about_the_equilibrium) {
+  annulus::test::Verification record("Helical pair in bearings with clearance", "equilibrium of the mechanism");
+  const auto plain = linear_pair();
+  auto linear = spatial(plain, unlike_bearings());
+  auto loose = linear;
+  loose.bearings[0].play = 40e-6;
+  loose.bearings[0].load_zone = false;  // beyond the clearance it is the same spring
+  const auto a = solved(lumped(plain, linear)), b = solved(lumped(plain, loose));
+  record.close("mesh force", "N", b.force, a.force, 1e-8, "residual of the equilibrium");
+  // The force of a stop points where the shaft has moved, 2e9 N/m beyond 40 um.
+  const auto system = assemble(lumped(plain, loose));
+  const auto at = [&](const char* name) { return b.q[system.find(name)]; };
+  const Eigen::Vector2d d(at("pinion_x") + 0.12 * at("pinion_tilty") / plain.pinion.radius,
+                          at("pinion_y") - 0.12 * at("pinion_tiltx") / plain.pinion.radius);
+  BOOST_TEST(d.norm() > 40e-6);
+  const auto pair = lumped(plain, loose);
+  const auto& found = pair.space->bearings[0];
+  const Eigen::Vector2d force = found.stiffness.topLeftCorner<2, 2>() * d + found.preload.head<2>();
+  record.at_most("force of the bearing with clearance", "",
+                 (force - 2e9 * (d - 40e-6 * d.normalized())).norm() / force.norm(), 1e-6,
+                 "residual of the equilibrium");
+}
+
 /// Bearings of a pinion on rollers with clearance, and a wheel in clearances.
 std::vector<StageBearing> loose_bearings() {
   auto list = unlike_bearings();
@@ -303,9 +328,9 @@ BOOST_AUTO_TEST_CASE(bearings_act_by_their_law) {
     pair.base_helix_angle *= sign;
     auto heavier = pair;
     heavier.pinion_torque *= 2.5;
-    auto about_less = lumped(pair, spatial(pair, loose_bearings()));
+    auto about_less = lumped(pair, spatial(pair, loose_bearings()), BearingLaws::whole);
     about_less.pinion_torque = heavier.pinion_torque;
-    const auto about_equilibrium = lumped(heavier, spatial(heavier, loose_bearings()));
+    const auto about_equilibrium = lumped(heavier, spatial(heavier, loose_bearings()), BearingLaws::whole);
     const auto a = solved(about_less), b = solved(about_equilibrium);
     const double size = b.q.cwiseAbs().maxCoeff();
     record.at_most("motions over the largest", "", (a.q - b.q).cwiseAbs().maxCoeff() / size, 1e-8,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/spatial/stage_bodies.h"
 #include "dynamics/system/mesh_excitation.h"
 #include "dynamics/time_integration/integrate.h"
 #include "fem/choice/wanted_model.h"
@@ -113,6 +114,7 @@ struct DynamicsInput {
   MeshDamping mesh_damping = MeshDamping::in_contact;
   dynamics::LoadDependence load_dependence = dynamics::LoadDependence::table;
   RimCoupling rim_coupling = RimCoupling::automatic;
+  dynamics::BearingLaws bearing_laws = dynamics::BearingLaws::tangents;
   dynamics::Integrator integrator = dynamics::Integrator::automatic;
   std::optional<int> steps_per_cycle;  ///< runge_kutta_4 only
   std::optional<int> mesh_cycles;

@@ -100,6 +100,7 @@ void put_in_space(dynamics::HelicalPair& pair, const Scene& scene, const PairGeo
       motion_face(geometry.gears, scene.pinion_wheel, face, scene.errors.pinion_wheel_misalignment, GapsAlong::normal);
   try {
     pair.space = dynamics::pair_about_equilibrium(spatial, of_pinion, of_wheel);
+    pair.space->laws = scene.dynamics->bearing_laws;
   } catch (const InputError& error) {
     throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
   }

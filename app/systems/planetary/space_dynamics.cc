@@ -71,6 +71,7 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
     if (mesh->face) face->symmetric = fem::asymmetry_of_face(*mesh->model.problem).empty();
   try {
     stage.space = dynamics::space_about_equilibrium(spatial, tilt_inertias(scene, geometry, ring));
+    stage.space->laws = scene.dynamics->bearing_laws;
   } catch (const InputError& error) {
     throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
   }

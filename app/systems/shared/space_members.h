@@ -15,7 +15,7 @@ ANNULUS_MEMBERS(dynamics::LinearBearing, name, body, on, place, stiffness, rigid
 ANNULUS_MEMBERS(dynamics::LinearCoupling, name, bearings, stiffness, turned, turning_preload);
 ANNULUS_MEMBERS(dynamics::SpaceLoad, body, load);
 ANNULUS_MEMBERS(dynamics::StandingLoad, body, cosine, sine);
-ANNULUS_MEMBERS(dynamics::SpaceSupports, bearings, couplings, loads, standing_loads);
+ANNULUS_MEMBERS(dynamics::SpaceSupports, laws, bearings, couplings, loads, standing_loads);
 ANNULUS_MEMBERS(FaceShape, slope, curvature, gap_slope, error_relative, tilted);
 ANNULUS_MEMBERS(dynamics::SpreadFace, width, middle, gap, shape);
 

@@ -45,8 +45,8 @@ SpaceResults space_results(const dynamics::SpaceMotion& found, int cycles) {
     const Eigen::VectorXd radial = bearing.force.topRows<2>().colwise().norm().transpose();
     const Eigen::VectorXd axial = bearing.force.row(2).transpose();
     const Eigen::VectorXd moment = bearing.force.bottomRows<2>().colwise().norm().transpose();
-    results.bearings.push_back(
-        {name, mean_of(radial), radial.maxCoeff(), mean_of(axial), axial.cwiseAbs().maxCoeff(), moment.maxCoeff()});
+    results.bearings.push_back({name, mean_of(radial), radial.maxCoeff(), mean_of(axial), axial.cwiseAbs().maxCoeff(),
+                                moment.maxCoeff(), bearing.law_deviation});
     const auto in_cycles = [&](const Eigen::VectorXd& values) { return dynamics::over_cycles(values, cycles); };
     add_column(csv, name + "_radial_max_N", in_cycles(radial).largest);
     add_column(csv, name + "_axial_mean_N", in_cycles(axial).mean);
@@ -65,13 +65,26 @@ SpaceResults space_results(const dynamics::SpaceMotion& found, int cycles) {
   return results;
 }
 
+std::vector<Warning> bearing_warnings(const SpaceResults& results, double accuracy, const std::string& ring) {
+  std::vector<Warning> list;
+  const auto worst = std::max_element(results.bearings.begin(), results.bearings.end(),
+                                      [](const auto& a, const auto& b) { return a.law_deviation < b.law_deviation; });
+  if (worst != results.bearings.end() && worst->law_deviation > accuracy)
+    list.push_back({"bearing_laws", Severity::warning,
+                    fmt::format("bearings act with their stiffness at the equilibrium. In this motion the force of "
+                                "bearing '{}' deviates from that of its law by {:.2g} % of the mean mesh force; "
+                                "dynamics.bearing_laws = \"whole\" takes the law itself, which takes longer",
+                                worst->name, 100 * worst->law_deviation),
+                    ring});
+  return list;
+}
+
 void add_json(Json& json, const SpaceResults& results) {
   for (const auto& b : results.bearings)
-    json["bearings_in_space"][b.name] = {{"radial_mean_N", json_number(b.radial_mean)},
-                                         {"radial_max_N", json_number(b.radial_max)},
-                                         {"axial_mean_N", json_number(b.axial_mean)},
-                                         {"axial_max_N", json_number(b.axial_max)},
-                                         {"moment_max_N_m", json_number(b.moment_max)}};
+    json["bearings_in_space"][b.name] = {
+        {"radial_mean_N", json_number(b.radial_mean)}, {"radial_max_N", json_number(b.radial_max)},
+        {"axial_mean_N", json_number(b.axial_mean)},   {"axial_max_N", json_number(b.axial_max)},
+        {"moment_max_N_m", json_number(b.moment_max)}, {"law_deviation_of_mesh_force", json_number(b.law_deviation)}};
   for (const auto& mesh : results.meshes)
     json["places_of_mesh_forces"][mesh.name] = {{"mean_m", json_number(mesh.place_mean)},
                                                 {"min_m", json_number(mesh.place_min)},

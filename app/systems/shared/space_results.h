@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/plan/warning.h"
 #include "app/report/section.h"
 #include "core/csv.h"
 #include "core/json.h"
@@ -18,6 +19,7 @@ struct SpaceResults {
     std::string name;
     double radial_mean = not_known, radial_max = not_known, axial_mean = not_known, axial_max = not_known;
     double moment_max = not_known;
+    double law_deviation = 0;  ///< SpaceMotion::Bearing
   };
   /// Place of the mesh force along the face, m from its middle.
   struct Mesh {
@@ -31,6 +33,9 @@ struct SpaceResults {
 
 /// `cycles`: mesh cycles of the window. Empty without bearings.
 [[nodiscard]] SpaceResults space_results(const dynamics::SpaceMotion& motion, int cycles);
+/// Bearings that act with their tangents and deviate from their law by more than `accuracy`.
+[[nodiscard]] std::vector<Warning> bearing_warnings(const SpaceResults& results, double accuracy,
+                                                    const std::string& ring);
 /// Members bearings_in_space and places_of_mesh_forces; none where there are no results.
 void add_json(Json& json, const SpaceResults& results);
 /// `of`: " of 'held'", or nothing.

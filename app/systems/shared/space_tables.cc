@@ -262,6 +262,18 @@ Table gravity_table(const SpaceSystem& of) {
   return gravity.done();
 }
 
+Table bearing_laws_key() {
+  Declarations lumped("dynamics", "", &Scene::dynamics);
+  lumped
+      .choice(
+          "bearing_laws", &DynamicsInput::bearing_laws,
+          {{"tangents", dynamics::BearingLaws::tangents}, {"whole", dynamics::BearingLaws::whole}},
+          "How [[bearing]] with clearance, rolling elements or a table act in motion. tangents: with their stiffness "
+          "at the equilibrium; whole: by their law at every instant, which takes longer.")
+      .fallback("tangents", "a run measures how far the motion leaves them");
+  return lumped.done();
+}
+
 Table tilt_inertia_table(const SpaceSystem& of) {
   Declarations<TiltInertiaInput> tilting(
       "tilt_inertia", "Moments of inertia about an axis across the body's own, through the middle of the face.",
@@ -406,7 +418,7 @@ class SpaceChecks : KeyChecks {
 }  // namespace
 
 std::vector<Table> space_tables(const SpaceSystem& of) {
-  return {bearing_table(of), load_table(of), gravity_table(of), tilt_inertia_table(of)};
+  return {bearing_table(of), load_table(of), gravity_table(of), tilt_inertia_table(of), bearing_laws_key()};
 }
 
 void check_space(Scene& scene, std::vector<Problem>& problems) { SpaceChecks(scene, problems).run(); }

@@ -24,7 +24,7 @@ struct SpaceSystem {
   Frames frames = Frames::housing;
 };
 
-/// [[bearing]], [[load]], [gravity], [tilt_inertia]
+/// [[bearing]], [[load]], [gravity], [tilt_inertia], and a key of [dynamics] at the end.
 [[nodiscard]] std::vector<Table> space_tables(const SpaceSystem& system);
 /// Names, lengths of lists, and bodies that fit each other.
 void check_space(Scene& scene, std::vector<Problem>& problems);

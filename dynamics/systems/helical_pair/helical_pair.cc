@@ -223,7 +223,7 @@ LumpedSystem assemble(const HelicalPair& pair) {
   if (pair.space) tilt = spread_over_face(builder, mesh, pair.space->face, bodies.tilt, 0, 1);
   builder.add_mesh(std::move(mesh));
   if (tilt) builder.add_mesh(std::move(*tilt));
-  if (pair.space) {
+  if (pair.space && pair.space->laws == BearingLaws::whole) {
     const auto motions = bearing_coordinates(pair);
     for (std::size_t i = 0; i < motions.size(); ++i)
       add_bearing_law(builder, pair.space->bearings[i], motions[i], pair.pinion.radius);

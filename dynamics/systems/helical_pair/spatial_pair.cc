@@ -138,7 +138,7 @@ PairSpace pair_about_equilibrium(const SpatialPair& pair, double tilt_inertia_pi
     auto found = linearised(bearing, at).bearing;
     turn(found, axes);
     if (!in_space) flatten(found);
-    act_by_law(found, pair.bearings[space.bearings.size()], pair.working_angle);
+    give_law(found, pair.bearings[space.bearings.size()], pair.working_angle);
     space.bearings.push_back(std::move(found));
   }
   if (!in_space)

@@ -312,7 +312,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   for (auto& element : ring_meshes) meshes.push_back(std::move(element));
   if (stage.space) spread_meshes(meshes, builder, stage, bodies);
   for (auto& element : meshes) builder.add_mesh(std::move(element));
-  if (stage.space)
+  if (stage.space && stage.space->laws == BearingLaws::whole)
     for (const auto& bearing : stage.space->bearings)
       add_bearing_law(builder, bearing, bearing_motion(stage, bodies, bearing), stage.carrier.radius);
   add_couplings(builder, stage, ring_modes);

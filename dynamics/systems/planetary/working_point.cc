@@ -297,7 +297,7 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
       of_planets[static_cast<std::size_t>(bearing.body.planet)].push_back(std::move(found));
       continue;
     }
-    act_by_law(found, bearing.bearing);
+    give_law(found, bearing.bearing);
     space.bearings.push_back(std::move(found));
   }
   if (stage.pins) put_on_pins(space, of_planets, *stage.pins);
