@@ -140,7 +140,8 @@ std::vector<StudyCase> combinations(const std::vector<SweepInput>& inputs, const
 
 /// Stiffnesses of supports and bearings, clearance of bearings, damping and backlash.
 bool often_assumed(const Parameter& p) {
-  return (p.table == "supports" && p.name.ends_with("_N_per_m")) || p.name.starts_with("bearing_") ||
+  return (p.table == "supports" && p.name.ends_with("_N_per_m")) ||
+         (p.name.starts_with("bearing_") && p.kind == Parameter::Kind::real) ||
          p.key() == "dynamics.mesh_damping_ratio" || p.key() == "dynamics.support_damping_ratio" ||
          p.key() == "dynamics.half_backlash_um" || p.name == "planet_clearance_um";
 }

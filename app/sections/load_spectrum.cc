@@ -32,7 +32,10 @@ PageTable classes_table(const StudyResults& studies, std::size_t variant) {
     for (const auto* figure : shown) {
       const auto text = known(figure->scale * spectrum.variants[variant][n].value(figure->key));
       const auto all = spectrum.overall(variant, figure->key);
-      cells.push_back(std::isfinite(all.largest) && all.of_class == n ? bold(text) : Text(text));
+      constexpr double rounding = 1e-12;
+      const bool differ = all.largest - all.mean > rounding * std::abs(all.largest);
+      const bool largest = all.of_class == n && differ;
+      cells.push_back(largest ? bold(text) : Text(text));
     }
     table.rows.push_back(std::move(cells));
   }
