@@ -160,7 +160,17 @@ class Mechanism::Solver {
     // In lengths.
     const Eigen::VectorXd motion = (basis_ * (unit.asDiagonal() * modes.eigenvectors().col(0))).cwiseQuotient(scale_);
     Eigen::Index largest = 0;
-    const double most = motion.cwiseAbs().maxCoeff(&largest);
+    double most = motion.cwiseAbs().maxCoeff(&largest);
+    // Where a body tilts, those that ride on it move along the axis by as much.
+    Eigen::VectorXd tilts = motion.cwiseAbs();
+    for (Eigen::Index i = 0; i < tilts.size(); ++i)
+      if (i % 6 != 3 && i % 6 != 4) tilts[i] = 0;
+    Eigen::Index tilted = 0;
+    constexpr double beside = 0.3;  // of the largest displacement
+    if (const double tilt = tilts.maxCoeff(&tilted); tilt > beside * most) {
+      most = tilt;
+      largest = tilted;
+    }
     constexpr const char* words[] = {"along x", "along y", "along the axis", "about x", "about y", "about the axis"};
     std::vector<std::string> names;
     for (int b = 0; b < mechanism_.bodies(); ++b)

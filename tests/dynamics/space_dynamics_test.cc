@@ -15,6 +15,7 @@
 #include "dynamics/modes/modes.h"
 #include "dynamics/statics/static_solver.h"
 #include "dynamics/system/lumped_system.h"
+#include "dynamics/systems/planetary/bearing_forces.h"
 #include "dynamics/systems/planetary/planetary_modes.h"
 #include "dynamics/systems/planetary/response.h"
 #include "dynamics/systems/planetary/space_motion.h"
@@ -475,6 +476,33 @@ BOOST_AUTO_TEST_CASE(shuttling_forces_of_a_helical_stage) {
   };
   BOOST_TEST(ripple(even) < 1e-6);
   BOOST_TEST(ripple(found) > 1e-3);
+}
+
+// Planets in the supports of the plane, with clearance: the pins bear what the planets' bearings do.
+BOOST_AUTO_TEST_CASE(pin_forces_of_planets_with_clearance) {
+  auto s = stages::reliability_stage(7.5 * units::deg);
+  add_all_bearings(s);
+  s.bearings.erase(s.bearings.begin(), s.bearings.begin() + 6);
+  s.plane.planet_bearings = {{2e9, 2e9, 20e-6}};
+  for (const auto laws : {BearingLaws::tangents, BearingLaws::whole}) {
+    auto stage = lumped(s);
+    stage.space->laws = laws;
+    stage.carrier_speed = 10 * units::rpm;
+    stage.mesh_damping_ratio = 0.05;
+    stage.support_damping_ratio = 0.04;
+    SimulationOptions options;
+    options.keep_series = true;
+    const auto found = simulate(stage, options);
+    const auto pins = bearing_forces(stage, found.series);
+    for (const auto& b : space_motion(stage, found.series).bearings) {
+      if (b.body.kind != Kind::planet) continue;
+      const Eigen::Index n = b.body.planet;
+      const double size = pins.tangential.row(n).cwiseAbs().maxCoeff();
+      BOOST_TEST(size > 1e5);
+      BOOST_TEST((pins.radial.row(n) + b.force.row(0)).cwiseAbs().maxCoeff() < 1e-4 * size);
+      BOOST_TEST((pins.tangential.row(n) + b.force.row(1)).cwiseAbs().maxCoeff() < 1e-4 * size);
+    }
+  }
 }
 
 // The ring couples its meshes: the same forces as the mechanism of the statics, which solves for them otherwise.
