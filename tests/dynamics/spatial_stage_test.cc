@@ -431,13 +431,12 @@ BOOST_AUTO_TEST_CASE(what_nothing_holds_is_named) {
     });
   };
   expect_refusal(s, "sun");
-  // A carrier in one bearing tilts, and takes along the planets of a spur stage, which shift along their meshes.
+  // A carrier in one bearing tilts about its planets, which shift along the meshes of a spur stage.
   s = stages::reliability_stage(0);
-  for (int n = 0; n < 3; ++n)
-    s.bearings.push_back(bearing("row", {Kind::planet, n}, {Kind::carrier}, 0, 2e9, 1e9, 1e6));
+  for (int n = 0; n < 3; ++n) s.bearings.push_back(bearing("row", {Kind::planet, n}, {Kind::carrier}, 0, 2e9, 1e9));
   s.bearings.push_back(bearing("main", {Kind::carrier}, {}, -0.3, 3e9, 1e9));
   s.loads = {{"rotor", {Kind::carrier}, StageFrame::housing, {0, 0, 0}, {0, 0, 0}, {5e4, 0, 0}}};
-  expect_refusal(s, "carrier");
+  expect_refusal(s, "nothing resists a motion of carrier about");
   s = stages::reliability_stage(7.5 * units::deg);
   for (const double place : {-0.3, 0.3, 0.5}) {
     s.bearings.push_back(bearing("b" + std::to_string(s.bearings.size()), {Kind::carrier}, {}, place, rigid, 1e9));
