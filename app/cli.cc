@@ -140,7 +140,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   const auto examples = [](CLI::App* command, const std::string& text) { command->footer("Examples:\n" + text); };
 
   const auto json = [&](CLI::App* command) {
-    command->add_flag("--json", arguments.json, "Print the results as JSON (summary.json) instead of a table");
+    command->add_flag("--json", arguments.json, "Print the results as JSON instead of a table");
     return command;
   };
   examples(json(cache(

@@ -1,9 +1,10 @@
 include(GNUInstallDirs)
 
 # One library per layer, of all sources in its folder and below, but for main.cc:
-#   annulus_add_layer(core [SHARED] PUBLIC ... PRIVATE ...)
+#   annulus_add_layer(core [SHARED] PUBLIC ... PRIVATE ... PRECOMPILE <Eigen/Core>)
+# PRECOMPILE names headers of other libraries that most sources include and that take long to read.
 function(annulus_add_layer name)
-  cmake_parse_arguments(ARG "SHARED" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "SHARED" "" "PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
   file(GLOB_RECURSE ARG_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
   list(FILTER ARG_SOURCES EXCLUDE REGEX "/main\\.cc$|/systems/skeleton/")
   if(ARG_SHARED AND NOT ANNULUS_CHECKED)
@@ -15,6 +16,9 @@ function(annulus_add_layer name)
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/annulus>)
   target_link_libraries(annulus_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   annulus_set_warnings(annulus_${name})
+  if(ARG_PRECOMPILE)
+    target_precompile_headers(annulus_${name} PRIVATE ${ARG_PRECOMPILE})
+  endif()
   # The layers that a scene or a table reaches before a solve guide the fuzzer.
   if(ANNULUS_CHECKED AND name MATCHES "^(core|geometry|app)$")
     target_compile_options(annulus_${name} PRIVATE -fsanitize=fuzzer-no-link)
@@ -71,15 +75,18 @@ set(ANNULUS_VERIFICATION_RECORDS ${PROJECT_BINARY_DIR}/verification)
 # Each entry of SUITES is labels:suite. NAME.suites fails when a suite of the sources is not listed. LAYER is the label of
 # all entries; without it, entries have only their own labels.
 function(annulus_add_tests name)
-  cmake_parse_arguments(ARG "" "LAYER" "LINK;SUITES" ${ARGN})
+  cmake_parse_arguments(ARG "" "LAYER" "LINK;PRECOMPILE;SUITES" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE annulus_test_main ${ARG_LINK} Boost::unit_test_framework)
   target_compile_definitions(test_${name} PRIVATE ANNULUS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_compile_options(test_${name} PRIVATE -include ${PROJECT_SOURCE_DIR}/tests/floating_point_traps.h)
-  if(NOT name MATCHES "^(fem|dynamics)$")  # these compare with computations of their own
-    annulus_optimise_little(test_${name})
+  # Each test case runs with traps: the header comes before every source, precompiled or not.
+  if(CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    target_compile_options(test_${name} PRIVATE -include ${PROJECT_SOURCE_DIR}/tests/floating_point_traps.h)
+  else()
+    target_precompile_headers(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/floating_point_traps.h ${ARG_PRECOMPILE})
   endif()
+  annulus_optimise_little(test_${name})
   annulus_set_warnings(test_${name})
   set(suites "")
   foreach(entry IN LISTS ARG_SUITES)

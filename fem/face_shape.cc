@@ -106,8 +106,7 @@ ReducedPhase reduced_at(const FaceLaw& law, double load) {
   const double stiffness = tangent(0, 0);
   ReducedPhase result;
   result.straight = reduced(force[0], force[1], stiffness, tangent(0, 1) / stiffness, tangent(1, 1) / stiffness);
-  constexpr double share = 0.5;
-  const double tilt = share * load / stiffness;
+  const double tilt = reduced_face_tilt * load / stiffness;
   const Eigen::Vector2d up = load_at(law, approach, tilt).force, down = load_at(law, approach, -tilt).force;
   for (const auto& [exact, side] : {std::pair{&up, 1.0}, {&down, -1.0}}) {
     const auto& r = result.straight;

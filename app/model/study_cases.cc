@@ -106,6 +106,23 @@ Scene change_scene(const Scene& scene, const StudyCase& study_case) {
 
 namespace {
 
+/// "stage.power_kW = 900, ..."
+std::string shown(const std::vector<Override>& point) {
+  std::vector<std::string> texts;
+  for (const auto& o : point) texts.push_back(o.input + " = " + to_text(o.value));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// Inputs and values as a name of a folder.
+std::string folder_of(const std::vector<Override>& point, const char* between) {
+  std::vector<std::string> parts;
+  for (const auto& o : point) {
+    parts.push_back(file_name(o.input));
+    parts.push_back(to_text(o.value, 15));
+  }
+  return fmt::format("{}", fmt::join(parts, between));
+}
+
 /// All combinations of the values of some inputs, the first input fastest. `study`: "[[grid]] 1", `noun`: of a case;
 /// `folder`: from the values as texts.
 std::vector<StudyCase> combinations(const std::vector<SweepInput>& inputs, const std::string& study, const char* noun,
@@ -122,18 +139,9 @@ std::vector<StudyCase> combinations(const std::vector<SweepInput>& inputs, const
   }
   std::vector<StudyCase> cases;
   for (auto& point : points) {
-    std::vector<std::string> texts, folder;
-    for (const auto& o : point) {
-      texts.push_back(o.input + " = " + to_text(o.value));
-      folder.push_back(file_name(o.input));
-      folder.push_back(to_text(o.value, 15));
-    }
-    cases.push_back(
-        {std::move(point),
-         fmt::format("{}, {} {} of {} ({})", study, noun, cases.size() + 1, points.size(), fmt::join(texts, ", ")),
-         inputs.size() == 1 ? fmt::format("sweep/{}", fmt::join(folder, "/"))
-                            : fmt::format("grid/{}", fmt::join(folder, "_")),
-         place});
+    const auto where = fmt::format("{}, {} {} of {} ({})", study, noun, cases.size() + 1, points.size(), shown(point));
+    const auto folder = inputs.size() == 1 ? "sweep/" + folder_of(point, "/") : "grid/" + folder_of(point, "_");
+    cases.push_back({std::move(point), where, folder, place});
   }
   return cases;
 }
@@ -180,15 +188,9 @@ std::vector<StudyCase> load_cases(const Scene& scene) {
   for (std::size_t n = 0; n < scene.load_classes.size(); ++n) {
     const auto& load = scene.load_classes[n];
     StudyCase made;
-    std::vector<std::string> texts, folder;
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      made.overrides.push_back({inputs[i], load.values[i]});
-      texts.push_back(inputs[i] + " = " + to_text(load.values[i]));
-      folder.push_back(file_name(inputs[i]));
-      folder.push_back(to_text(load.values[i], 15));
-    }
-    made.where = fmt::format("[[load_spectrum.class]] '{}' ({})", load.name, fmt::join(texts, ", "));
-    made.folder = fmt::format("load_spectrum/{}", fmt::join(folder, "_"));
+    for (std::size_t i = 0; i < inputs.size(); ++i) made.overrides.push_back({inputs[i], load.values[i]});
+    made.where = fmt::format("[[load_spectrum.class]] '{}' ({})", load.name, shown(made.overrides));
+    made.folder = "load_spectrum/" + folder_of(made.overrides, "_");
     made.place = place_text(scene, "load_spectrum.class.values", n);
     made.other_motions = true;
     cases.push_back(std::move(made));

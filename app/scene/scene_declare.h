@@ -39,7 +39,7 @@ inline constexpr Unit key_units[] = {
     {"_Nm_per_rad", "N m/rad", 1},
     {"_N", "N", 1},
     {"_m_per_s2", "m/s²", 1},
-    {"_h", "h", 3600},
+    {"_h", "h", units::hour},
 };
 
 template <class T>

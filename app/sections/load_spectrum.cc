@@ -5,6 +5,7 @@
 #include "app/scene/overrides.h"
 #include "app/sections/report_parts.h"
 #include "app/study/study_subject.h"
+#include "core/units.h"
 
 namespace annulus::app {
 
@@ -26,7 +27,7 @@ PageTable classes_table(const StudyResults& studies, std::size_t variant) {
   }
   for (std::size_t n = 0; n < spectrum.classes.size(); ++n) {
     const auto& load = spectrum.classes[n];
-    std::vector<Text> cells = {load.name, to_text(load.duration / LoadClassInput::hour, 5),
+    std::vector<Text> cells = {load.name, to_text(load.duration / units::hour, 5),
                                fmt::format("{:.3g}", 100 * load.duration / spectrum.duration())};
     for (const double value : load.values) cells.emplace_back(to_text(value, 5));
     for (const auto* figure : shown) {
@@ -39,7 +40,7 @@ PageTable classes_table(const StudyResults& studies, std::size_t variant) {
     }
     table.rows.push_back(std::move(cells));
   }
-  std::vector<Text> means = {"mean over the time", to_text(spectrum.duration() / LoadClassInput::hour, 5), "100"};
+  std::vector<Text> means = {"mean over the time", to_text(spectrum.duration() / units::hour, 5), "100"};
   means.resize(3 + spectrum.inputs.size(), Text(""));
   for (const auto* figure : shown)
     means.emplace_back(known(figure->scale * spectrum.overall(variant, figure->key).mean));

@@ -102,7 +102,8 @@ CasePoints run_in_order(const StudySubject& subject, const std::vector<StudyCase
 std::vector<SweepBranches> find_branches(const StudySubject& subject, std::size_t sweep) {
   const auto& input = subject.scene().sweeps.at(sweep);
   const auto values = input.points();
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double low = *std::min_element(values.begin(), values.end());
+  const double high = *std::max_element(values.begin(), values.end());
   const std::size_t variants = subject.variants().size();
   std::vector<SweepBranches> result(variants);
   for_each_task(variants, subject.options().threads, [&](std::size_t variant) {
@@ -114,11 +115,11 @@ std::vector<SweepBranches> find_branches(const StudySubject& subject, std::size_
     constexpr int samples = 64;
     auto& found = result[variant];
     try {
-      const auto identity = identity_of(std::string("branches 1"), model_at(*low)->id(), model_at(*high)->id(),
-                                        input.input, *low, *high, samples);
+      const auto identity = identity_of(std::string("branches 1"), model_at(low)->id(), model_at(high)->id(),
+                                        input.input, low, high, samples);
       const auto [branches, reused] = cached_value(subject.options().store.get(), "branches", identity, [&] {
         return dynamics::branches_between([&](double value) { return model_at(value)->lumped(); },
-                                          {.from = *low, .to = *high, .samples_per_cycle = samples});
+                                          {.from = low, .to = high, .samples_per_cycle = samples});
       });
       found.branches = branches;
       count_reuse(subject.options(), study_responses, reused ? 1 : 0, reused ? 0 : 1);

@@ -5,6 +5,7 @@
 #include "app/results/content_id.h"
 #include "app/study/studies.h"
 #include "app/study/study_points.h"
+#include "core/units.h"
 
 namespace annulus::app {
 
@@ -45,7 +46,7 @@ LoadSpectrumResult run_load_spectrum(const StudySubject& subject) {
     auto csv = columns.empty_table();
     for (std::size_t n = 0; n < result.classes.size(); ++n) {
       const auto& load = result.classes[n];
-      std::vector<double> inputs{load.duration / LoadClassInput::hour};
+      std::vector<double> inputs{load.duration / units::hour};
       inputs.insert(inputs.end(), load.values.begin(), load.values.end());
       columns.add(csv, n + 1, inputs, result.variants[variant][n]);
     }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/units.h"
+
 namespace annulus::app {
 
 Json interval_json(const dynamics::Interval& i) {
@@ -61,16 +63,12 @@ Json branches_json(const SweepBranches& found) {
   return list;
 }
 
-}  // namespace
-
-namespace {
-
 Json load_spectrum_json(const StudyResults& studies, std::size_t variant) {
   const auto& spectrum = *studies.load_spectrum;
-  Json json = {{"file", "load_spectrum.csv"}, {"duration_h", spectrum.duration() / LoadClassInput::hour}};
+  Json json = {{"file", "load_spectrum.csv"}, {"duration_h", spectrum.duration() / units::hour}};
   for (std::size_t n = 0; n < spectrum.classes.size(); ++n) {
     const auto& load = spectrum.classes[n];
-    Json one = {{"name", load.name}, {"duration_h", load.duration / LoadClassInput::hour}};
+    Json one = {{"name", load.name}, {"duration_h", load.duration / units::hour}};
     for (std::size_t i = 0; i < spectrum.inputs.size(); ++i) one["inputs"][spectrum.inputs[i]] = load.values[i];
     one["results"] = point_json(studies, spectrum.variants.at(variant)[n]);
     json["classes"].push_back(std::move(one));

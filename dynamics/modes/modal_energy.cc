@@ -33,10 +33,14 @@ ModalEnergy modal_energy(const LumpedSystem& system, const Eigen::VectorXd& mesh
     vectors.push_back(std::move(a));
     stiffness.push_back(spring.stiffness);
   }
-  const auto springs = static_cast<Eigen::Index>(vectors.size());
   const Eigen::MatrixXd mesh_vectors = system.mesh_vectors();
-  const Eigen::Index meshes = mesh_vectors.cols();
-  for (const auto& mesh : system.meshes()) result.elements.push_back(mesh.name);
+  // Where a law acts beside springs, its meshes have no stiffness.
+  std::vector<Eigen::Index> element_of_mesh(system.meshes().size(), -1);
+  for (std::size_t m = 0; m < system.meshes().size(); ++m) {
+    if (mesh_stiffness[static_cast<Eigen::Index>(m)] == 0) continue;
+    element_of_mesh[m] = std::ssize(result.elements);
+    result.elements.push_back(system.meshes()[m].name);
+  }
   const Eigen::MatrixXd coupled = mesh_stiffness_matrix(system, mesh_stiffness);
   for (const auto& coupling : system.couplings()) (void)index_of_name(result.elements, coupling.body);
 
@@ -54,11 +58,15 @@ ModalEnergy modal_energy(const LumpedSystem& system, const Eigen::VectorXd& mesh
         result.strain(static_cast<Eigen::Index>(e), i) = stiffness[e] * stretch * stretch;
       }
       const Eigen::VectorXd delta = mesh_vectors.transpose() * mode.shape, force = coupled * delta;
-      result.strain.col(i).segment(springs, meshes) = force.array().square() / mesh_stiffness.array();
+      for (std::size_t m = 0; m < element_of_mesh.size(); ++m)
+        if (const auto n = static_cast<Eigen::Index>(m); element_of_mesh[m] >= 0)
+          result.strain(element_of_mesh[m], i) = force[n] * force[n] / mesh_stiffness[n];
       for (const auto& coupling : system.couplings())
-        for (const int m : coupling.meshes)
+        for (const int m : coupling.meshes) {
+          const auto element = element_of_mesh[static_cast<std::size_t>(m)];
           result.strain(index_of_name(result.elements, coupling.body), i) +=
-              delta[m] * force[m] - result.strain(springs + m, i);
+              delta[m] * force[m] - (element < 0 ? 0.0 : result.strain(element, i));
+        }
       result.strain.col(i) /= result.strain.col(i).sum();
     }
     const Eigen::VectorXd momentum = system.mass() * mode.shape;

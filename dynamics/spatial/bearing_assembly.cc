@@ -36,7 +36,7 @@ void BearingAssembly::add_part(MadeBearing& made, const StageBearing& b, const B
     made.element.at(static_cast<std::size_t>(part.coordinates[i])) = element;
     made.coordinate.at(static_cast<std::size_t>(part.coordinates[i])) = static_cast<int>(i);
   }
-  if (part.row) made.row = part.row;
+  if (part.row) made.rolling = part.row;
 }
 
 void BearingAssembly::hold(MadeBearing& made, const StageBearing& b, const BearingPlace& place, int coordinate) {
@@ -45,7 +45,7 @@ void BearingAssembly::hold(MadeBearing& made, const StageBearing& b, const Beari
   const auto row = measure(b, place, coordinate);
   int& held = made.held.at(static_cast<std::size_t>(coordinate));
   // In the plane two bearings on either side of the face hold the same, and share it.
-  if (freedom_ == Freedom::plane)
+  if (motions_ == Motions::in_plane)
     for (std::size_t h = 0; h < holds_.size(); ++h)
       if (same_in_plane(holds_[h], row)) {
         held = static_cast<int>(h);
@@ -59,12 +59,11 @@ void BearingAssembly::hold(MadeBearing& made, const StageBearing& b, const Beari
 }
 
 MadeBearing BearingAssembly::add(const StageBearing& b, const BearingPlace& place) {
-  MadeBearing made{b.name, b.body, b.on, b.frame, b.place, place.axes};
-  made.bearing = b;
-  for (const auto& part : parts_of(b, freedom_)) add_part(made, b, place, part);
+  MadeBearing made{b, place.axes};
+  for (const auto& part : parts_of(b, motions_)) add_part(made, b, place, part);
   if (b.matrix) return made;
   const std::array stiffness{b.x, b.y, b.axial, b.tilt, b.tilt};
-  for (int i = 0; i < (freedom_ == Freedom::space ? 5 : 2); ++i)
+  for (int i = 0; i < (motions_ == Motions::in_space ? 5 : 2); ++i)
     if (stiffness.at(static_cast<std::size_t>(i)) == rigid && made.element.at(static_cast<std::size_t>(i)) < 0 &&
         !(b.row && i > 2))
       hold(made, b, place, i);

@@ -12,16 +12,11 @@
 namespace annulus::dynamics {
 
 /// A bearing in a mechanism, or the support that a body without one has.
-struct MadeBearing {
-  std::string name;
-  StageBody body, on;
-  StageFrame frame = StageFrame::housing;
-  double place = 0;                                    ///< m, z
+struct MadeBearing : StageBearing {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of its frame, as columns
   /// x, y, z, about x, about y: the element and coordinate that resists it, or the hold; -1: nothing.
   std::array<int, 5> element{-1, -1, -1, -1, -1}, coordinate{}, held{-1, -1, -1, -1, -1};
-  std::shared_ptr<const RollingRowLaw> row{};  ///< of its first element; null: it has no rolling elements
-  StageBearing bearing{};
+  std::shared_ptr<const RollingRowLaw> rolling{};  ///< of its first element; null: it has no rolling elements
 };
 
 /// Where a bearing stands: numbers of its bodies in a mechanism, the middle of what it holds, axes of its frame
@@ -35,7 +30,7 @@ struct BearingPlace {
 /// Adds bearings to a mechanism.
 class BearingAssembly {
  public:
-  BearingAssembly(Mechanism& mechanism, Freedom freedom) : mechanism_(mechanism), freedom_(freedom) {}
+  BearingAssembly(Mechanism& mechanism, Motions motions) : mechanism_(mechanism), motions_(motions) {}
 
   [[nodiscard]] MadeBearing add(const StageBearing& bearing, const BearingPlace& place);
   /// x, y, z, about x, about y of a bearing: 0 ... 4.
@@ -49,7 +44,7 @@ class BearingAssembly {
   void hold(MadeBearing& made, const StageBearing& bearing, const BearingPlace& place, int coordinate);
 
   Mechanism& mechanism_;
-  Freedom freedom_;
+  Motions motions_;
   std::vector<Mechanism::Measure> holds_;
   std::vector<int> shared_;
 };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/elastic_law.h"
+#include "dynamics/spatial/series_law.h"
 
 namespace annulus::dynamics {
 
@@ -20,9 +21,9 @@ LinearBearing::Stiffness to_law(const LinearBearing& bearing) {
   return all;
 }
 
-std::vector<BearingPart> bent_parts(const StageBearing& bearing) {
-  auto parts = parts_of(bearing, Freedom::space);
-  std::erase_if(parts, [](const auto& part) { return !part.bends; });
+std::vector<BearingPart> nonlinear_parts(const StageBearing& bearing) {
+  auto parts = parts_of(bearing, Motions::in_space);
+  std::erase_if(parts, [](const auto& part) { return !part.nonlinear; });
   return parts;
 }
 
@@ -62,18 +63,51 @@ class BeyondStiffness final : public ForceLaw {
   Eigen::VectorXd lengths_;
 };
 
+/// A coordinate of a law: the name of its mesh, whose deflection is `length` times the coordinate.
+struct Coordinate {
+  std::string name;
+  LinearForm form;
+  double length = 1;
+};
+/// Adds what a law does beyond the stiffness K of all its coordinates.
+void add_beyond(LumpedSystemBuilder& builder, const std::vector<Coordinate>& coordinates,
+                const std::shared_ptr<const ElasticLaw>& law, const Eigen::MatrixXd& stiffness) {
+  LawElement element;
+  std::vector<Eigen::Index> kept;
+  Eigen::VectorXd lengths(std::ssize(coordinates));
+  for (Eigen::Index i = 0; i < lengths.size(); ++i) {
+    const auto& coordinate = coordinates[static_cast<std::size_t>(i)];
+    lengths[i] = coordinate.length;
+    if (coordinate.form.empty()) continue;
+    kept.push_back(i);
+    MeshElement mesh;
+    mesh.name = coordinate.name;
+    mesh.b = coordinate.length * coordinate.form;
+    mesh.excitation = ConstantStiffness{0};
+    element.meshes.push_back(builder.add_mesh(std::move(mesh)));
+  }
+  if (kept.empty()) return;
+  element.law = std::make_shared<BeyondStiffness>(law, std::move(kept), stiffness, std::move(lengths));
+  builder.add_law(std::move(element));
+}
+
 }  // namespace
 
 void give_law(LinearBearing& linear, const StageBearing& bearing, double axes) {
-  if (!bends(bearing)) return;
+  if (!is_nonlinear(bearing)) return;
   linear.law = bearing;
   linear.law_axes = axes;
 }
 
-LinearBearing beside_law(LinearBearing bearing) {
-  if (bearing.law)
-    for (const auto& part : bent_parts(*bearing.law))
+LinearBearing beside_law(const SpaceSupports& supports, std::size_t number) {
+  LinearBearing bearing = supports.bearings[number];
+  if (const auto* coupling = supports.coupling_of(number); coupling && coupling->law) {
+    bearing.preload.setZero();
+    bearing.standing.setZero();
+  } else if (bearing.law) {
+    for (const auto& part : nonlinear_parts(*bearing.law))
       for (const int i : part.coordinates) bearing.preload[i] = bearing.standing[i] = 0;
+  }
   return bearing;
 }
 
@@ -88,26 +122,27 @@ void add_bearing_law(LumpedSystemBuilder& builder, const LinearBearing& bearing,
         turned[first + i] = turn(static_cast<Eigen::Index>(i), 0) * motion[first] +
                             turn(static_cast<Eigen::Index>(i), 1) * motion[first + 1];
   const LinearBearing::Stiffness stiffness = turn * bearing.stiffness * turn.transpose();
-  for (const auto& part : bent_parts(*bearing.law)) {
-    LawElement element;
-    std::vector<Eigen::Index> kept;
-    Eigen::VectorXd lengths(std::ssize(part.coordinates));
-    for (Eigen::Index i = 0; i < lengths.size(); ++i) {
-      const auto coordinate = static_cast<std::size_t>(part.coordinates[static_cast<std::size_t>(i)]);
-      lengths[i] = coordinate < 3 ? 1 : length;
-      if (turned[coordinate].empty()) continue;
-      kept.push_back(i);
-      MeshElement mesh;
-      mesh.name = bearing.element() + "_law" + suffixes[coordinate];
-      mesh.b = lengths[i] * turned[coordinate];
-      mesh.excitation = ConstantStiffness{0};
-      element.meshes.push_back(builder.add_mesh(std::move(mesh)));
+  for (const auto& part : nonlinear_parts(*bearing.law)) {
+    std::vector<Coordinate> coordinates;
+    for (const int i : part.coordinates) {
+      const auto c = static_cast<std::size_t>(i);
+      coordinates.push_back({bearing.element() + "_law" + suffixes[c], turned[c], c < 3 ? 1 : length});
     }
-    if (kept.empty()) continue;
-    element.law = std::make_shared<BeyondStiffness>(part.law, std::move(kept),
-                                                    stiffness(part.coordinates, part.coordinates), std::move(lengths));
-    builder.add_law(std::move(element));
+    add_beyond(builder, coordinates, part.law, stiffness(part.coordinates, part.coordinates));
   }
+}
+
+void add_coupling_law(LumpedSystemBuilder& builder, const LinearCoupling& coupling, const SpaceSupports& supports,
+                      const std::vector<LinearForm>& motion, double length) {
+  if (!coupling.law) return;
+  std::vector<Coordinate> coordinates;
+  for (const std::size_t i : coupling.bearings)
+    for (std::size_t c = 0; c < 5; ++c)
+      coordinates.push_back(
+          {supports.bearings[i].element() + "_law" + suffixes[c], motion[coordinates.size()], c < 3 ? 1 : length});
+  if (coupling.turned)
+    coordinates.push_back({name_of_body(*coupling.turned) + "_" + coupling.name + "_law_u", motion.back(), 1});
+  add_beyond(builder, coordinates, series_law(*coupling.law), supports.whole(coupling));
 }
 
 Eigen::MatrixXd beyond_stiffness(const LinearBearing& bearing, const Eigen::MatrixXd& motion) {
@@ -116,7 +151,7 @@ Eigen::MatrixXd beyond_stiffness(const LinearBearing& bearing, const Eigen::Matr
   const auto turn = to_law(bearing);
   const Eigen::MatrixXd turned = turn * motion;
   const LinearBearing::Stiffness stiffness = turn * bearing.stiffness * turn.transpose();
-  for (const auto& part : bent_parts(*bearing.law)) {
+  for (const auto& part : nonlinear_parts(*bearing.law)) {
     const Eigen::MatrixXd linear = stiffness(part.coordinates, part.coordinates);
     for (Eigen::Index t = 0; t < motion.cols(); ++t) {
       const Eigen::VectorXd d = turned(part.coordinates, t);
@@ -124,6 +159,13 @@ Eigen::MatrixXd beyond_stiffness(const LinearBearing& bearing, const Eigen::Matr
     }
   }
   return turn.transpose() * force;
+}
+
+Eigen::MatrixXd forces_by_law(const LinearCoupling& coupling, const Eigen::MatrixXd& motion) {
+  const auto law = series_law(*coupling.law);
+  Eigen::MatrixXd force(motion.rows(), motion.cols());
+  for (Eigen::Index t = 0; t < motion.cols(); ++t) force.col(t) = -law->at(motion.col(t)).force;
+  return force;
 }
 
 }  // namespace annulus::dynamics

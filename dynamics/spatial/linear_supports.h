@@ -26,11 +26,29 @@ struct LinearBearing {
   Vector preload = Vector::Zero();          ///< f: N, N m
   /// A part of f that stands still in the housing, in the axes of the carrier at time 0; of bearings there alone.
   Vector standing = Vector::Zero();
-  /// The whole bearing, where its force bends (SpaceSupports::laws).
+  /// The whole bearing, where it is nonlinear (SpaceSupports::laws).
   std::optional<StageBearing> law{};
   double law_axes = 0;  ///< rad, about z: the axes of the law from those of the body
   /// Its name among springs, in columns and in groups of modal energy: "planet1_upwind_row".
   [[nodiscard]] std::string element() const;
+};
+
+/// Whole bearings and springs on something elastic, which has 5 coordinates per place.
+struct BearingsInSeries {
+  struct Seated {
+    StageBearing bearing;
+    int first = 0;     ///< coordinate of its place
+    double place = 0;  ///< m, z of the bearing from there
+  };
+  struct Spring {
+    int coordinate = 0;
+    double stiffness = 0;  ///< N/m
+  };
+  Motions motions = Motions::in_space;
+  Eigen::MatrixXd below;  ///< stiffness of what they stand on: N/m, N, N m/rad
+  Eigen::MatrixXd held;   ///< rows of coordinates in which the bearings do not give way
+  std::vector<Seated> bearings{};
+  std::vector<Spring> springs{};
 };
 
 /// Bearings that act on each other through what they stand on, as planets do through a carrier.
@@ -44,6 +62,9 @@ struct LinearCoupling {
   /// The coupling is then its torsional support and acts on it with -(K d + turning_preload).
   std::optional<StageBody> turned{};
   double turning_preload = 0;  ///< N
+  /// Of all coordinates together, where bearings are nonlinear: their whole laws on what they stand on. It resists the
+  /// motions with the forces that `stiffness` and the bearings have for small motions.
+  std::optional<BearingsInSeries> law{};
 };
 
 /// Force (N) in the middle of the face and moment (N m) on a body, in its axes.
@@ -61,8 +82,7 @@ struct StandingLoad {
 
 /// Bearings and loads of bodies that move along the axis and tilt, for small motions.
 struct SpaceSupports {
-  /// By their whole law bearings act in the coordinates in which their force bends; K then serves modes and dampers
-  /// alone there.
+  /// With whole laws, K of the coordinates of nonlinear parts serves modes and dampers alone.
   BearingLaws laws = BearingLaws::tangents;
   std::vector<LinearBearing> bearings{};
   std::vector<LinearCoupling> couplings{};

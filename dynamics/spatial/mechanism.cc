@@ -189,11 +189,13 @@ class Mechanism::Solver {
       const double most = moved.cwiseAbs().maxCoeff(&along);
       if (most <= large * mechanism_.length_) continue;
       constexpr const char* words[] = {"x", "y", "z"};
+      const char* rows = along < 2 ? ""
+                                   : ". Rows of rolling elements hold in one direction along the axis, against a "
+                                     "displacement along +z with a positive contact angle";
       throw InputError(
-          fmt::format("nothing bears the load of the {} along {}{}: it would move by {:.3g} m. Rows of rolling "
-                      "elements hold in one "
-                      "direction along the axis, against a displacement along +z with a positive contact angle",
-                      mechanism_.body(b).name, moved[along] < 0 ? "-" : "+", words[along], most));
+          fmt::format("the {} would move by {:.3g} m along {}{}: what holds it there is too soft for the "
+                      "loads of the stage, or lets it go{}",
+                      mechanism_.body(b).name, most, moved[along] < 0 ? "-" : "+", words[along], rows));
     }
   }
 

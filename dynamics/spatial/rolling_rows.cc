@@ -56,8 +56,8 @@ void check(const RollingRow& row) {
                     row.clearance, most / 2));
 }
 
-std::vector<int> coordinates_of(const RollingRow& row, Freedom freedom) {
-  if (freedom == Freedom::plane) return {0, 1};
+std::vector<int> coordinates_of(const RollingRow& row, Motions motions) {
+  if (motions == Motions::in_plane) return {0, 1};
   if (row.element == RollingRow::Element::roller && row.contact_angle == 0) return {0, 1, 3, 4};
   return {0, 1, 2, 3, 4};
 }
@@ -98,7 +98,7 @@ ElasticLaw::State in_play(const Eigen::VectorXd& deflection, const std::vector<i
 
 class RollerRowLaw final : public RollingRowLaw {
  public:
-  RollerRowLaw(const RollingRow& row, Freedom freedom) : RollingRowLaw(coordinates_of(row, freedom)) {
+  RollerRowLaw(const RollingRow& row, Motions motions) : RollingRowLaw(coordinates_of(row, motions)) {
     constexpr double per_m = 1e3;  // mm
     stiffness_ = 35948 * std::pow(per_m * row.length, 8.0 / 9) * std::pow(per_m, exponent) / slices;
     const double angle = inner_angle(row);
@@ -201,8 +201,8 @@ double ball_stiffness(const RollingRow& row) {
 
 class BallRowLaw final : public RollingRowLaw {
  public:
-  BallRowLaw(const RollingRow& row, Freedom freedom)
-      : RollingRowLaw(coordinates_of(row, freedom)),
+  BallRowLaw(const RollingRow& row, Motions motions)
+      : RollingRowLaw(coordinates_of(row, motions)),
         stiffness_(ball_stiffness(row)),
         distance_((row.inner_groove + row.outer_groove - 1) * row.diameter) {
     const double angle = inner_angle(row);
@@ -261,10 +261,10 @@ class BallRowLaw final : public RollingRowLaw {
 
 }  // namespace
 
-std::shared_ptr<const RollingRowLaw> law_of(const RollingRow& row, Freedom freedom) {
+std::shared_ptr<const RollingRowLaw> law_of(const RollingRow& row, Motions motions) {
   check(row);
-  if (row.element == RollingRow::Element::ball) return std::make_shared<BallRowLaw>(row, freedom);
-  return std::make_shared<RollerRowLaw>(row, freedom);
+  if (row.element == RollingRow::Element::ball) return std::make_shared<BallRowLaw>(row, motions);
+  return std::make_shared<RollerRowLaw>(row, motions);
 }
 
 PointContact point_contact(double load, double curvature_sum, double curvature_difference, double modulus) {

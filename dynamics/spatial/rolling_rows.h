@@ -56,7 +56,7 @@ class RollingRowLaw : public ElasticLaw {
 ///
 /// Balls have the force c delta^(3/2), where delta is by how much the centres of the grooves' curvature are further
 /// apart than in touch; it acts along the line through both, so that the contact angle follows the load.
-[[nodiscard]] std::shared_ptr<const RollingRowLaw> law_of(const RollingRow& row, Freedom freedom);
+[[nodiscard]] std::shared_ptr<const RollingRowLaw> law_of(const RollingRow& row, Motions motions);
 
 /// Contact of two bodies of one material in a point: by Hertz.
 struct PointContact {

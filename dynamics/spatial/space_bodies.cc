@@ -145,8 +145,8 @@ class SpaceBodies {
   }
 
   void add_bearing(std::size_t index) {
-    const auto& given = supports_.bearings[index];
-    const auto bearing = supports_.laws == BearingLaws::whole ? beside_law(given) : given;
+    const auto bearing =
+        supports_.laws == BearingLaws::whole ? beside_law(supports_, index) : supports_.bearings[index];
     const auto d = motion_of(bearing);
     const auto move = to_place(bearing.place);
     const Vector force = move.transpose() * bearing.preload;
@@ -171,7 +171,8 @@ class SpaceBodies {
     for (const auto& [stiffness, form] :
          squares(supports_.whole(coupling), coordinates_of(coupling), length_of(coupling)))
       builder_.add_spring(form, stiffness, 0, coupling.name);
-    if (coupling.turned) builder_.add_load(forms_[number(*coupling.turned)].u, -coupling.turning_preload);
+    if (coupling.turned && !(coupling.law && supports_.laws == BearingLaws::whole))
+      builder_.add_load(forms_[number(*coupling.turned)].u, -coupling.turning_preload);
   }
 
   [[nodiscard]] Forms coordinates_of(const LinearCoupling& coupling) const {

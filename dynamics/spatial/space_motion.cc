@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/not_known.h"
@@ -21,17 +22,40 @@ Eigen::MatrixXd course(const std::vector<LinearForm>& coordinates, const TimeSer
   return motion;
 }
 
-/// Largest difference of the law's force (N) to that of the tangents, with moments over a lever (m). `beyond`: of the
-/// law, beyond K d.
-double deviation(const LinearBearing& bearing, Eigen::MatrixXd beyond, const Eigen::ArrayXd& angle, double lever) {
-  const auto rest = beside_law(bearing);
-  beyond.colwise() += bearing.preload - rest.preload;
-  const LinearBearing::Vector standing = bearing.standing - rest.standing;
-  beyond +=
-      standing * angle.cos().matrix().transpose() + quarter_turn_later(standing) * angle.sin().matrix().transpose();
-  beyond.bottomRows<2>() /= lever;
-  return beyond.colwise().norm().maxCoeff();
+/// The same of all coordinates of a coupling.
+Eigen::MatrixXd course(const LinearCoupling& coupling, const SpaceSystem& system, const TimeSeries& series) {
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(coupling.stiffness.rows(), series.time.size());
+  Eigen::Index first = 0;
+  for (const std::size_t i : coupling.bearings) {
+    motions.middleRows<5>(first) = course(system.bearings[i], series);
+    first += 5;
+  }
+  if (coupling.turned)
+    for (const auto& [dof, factor] : system.turned) motions.row(first) += factor * series.displacement.row(dof);
+  return motions;
 }
+
+/// Force on the body by its stiffness and preload alone. `angle`: of the carrier, rad.
+Eigen::MatrixXd linear_force(const LinearBearing& bearing, const Eigen::MatrixXd& motion, const Eigen::ArrayXd& angle) {
+  Eigen::MatrixXd force = -bearing.stiffness * motion;
+  force.colwise() -= bearing.preload;
+  if (bearing.standing.any())
+    force -= bearing.standing * angle.cos().matrix().transpose() +
+             quarter_turn_later(bearing.standing) * angle.sin().matrix().transpose();
+  return force;
+}
+
+/// Of forces (N) and moments, these over a lever (m), over all times.
+double largest_force(Eigen::MatrixXd force, double lever) {
+  force.bottomRows<2>() /= lever;
+  return force.colwise().norm().maxCoeff();
+}
+
+/// Forces of couplings on their bearings, 5 x times each; empty for bearings without.
+struct CouplingForces {
+  std::vector<Eigen::MatrixXd> from_others;  ///< from the motions of others, by the stiffness
+  std::vector<Eigen::MatrixXd> by_law;       ///< all of them
+};
 
 }  // namespace
 
@@ -41,44 +65,40 @@ SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& sy
   require(series.force.rows() >= 2 * meshes, fmt::format("{} forces of {} meshes", series.force.rows(), meshes));
   const Eigen::ArrayXd angle = system.carrier_speed * series.time.array();
   const double mean_force = series.force.topRows(meshes).cwiseAbs().mean(), lever = system.faces.front()->width / 2;
-  // Forces on a bearing from the motions of others.
-  std::vector<Eigen::MatrixXd> from_others(supports.bearings.size());
+  const bool whole = supports.laws == BearingLaws::whole;
+  CouplingForces coupled{std::vector<Eigen::MatrixXd>(supports.bearings.size()),
+                         std::vector<Eigen::MatrixXd>(supports.bearings.size())};
   for (const auto& coupling : supports.couplings) {
-    Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(coupling.stiffness.rows(), times);
+    const auto motions = course(coupling, system, series);
+    const Eigen::MatrixXd forces = -coupling.stiffness * motions;
+    const Eigen::MatrixXd by_law = coupling.law ? forces_by_law(coupling, motions) : Eigen::MatrixXd();
     Eigen::Index first = 0;
     for (const std::size_t i : coupling.bearings) {
-      motions.middleRows<5>(first) = course(system.bearings[i], series);
+      coupled.from_others[i] = forces.middleRows<5>(first);
+      if (coupling.law) coupled.by_law[i] = by_law.middleRows<5>(first);
       first += 5;
     }
-    if (coupling.turned)
-      for (const auto& [dof, factor] : system.turned) motions.row(first) += factor * series.displacement.row(dof);
-    const Eigen::MatrixXd forces = -coupling.stiffness * motions;
-    first = 0;
-    for (const std::size_t i : coupling.bearings) {
-      from_others[i] = forces.middleRows<5>(first);
-      first += 5;
-    }
-    if (coupling.turned)
-      result.turning_torque =
-          system.turned_radius * (forces.row(first).transpose().array() - coupling.turning_preload).matrix();
+    if (!coupling.turned) continue;
+    Eigen::VectorXd force = forces.row(first).transpose().array() - coupling.turning_preload;
+    if (coupling.law && whole) force = by_law.row(first).transpose();
+    result.turning_torque = system.turned_radius * force;
   }
   for (std::size_t i = 0; i < supports.bearings.size(); ++i) {
-    const bool whole = supports.laws == BearingLaws::whole;
-    const auto b = whole ? beside_law(supports.bearings[i]) : supports.bearings[i];
-    if (b.stiffness.isZero(0) && !b.law) continue;  // all that it does is rigid
-    const Eigen::MatrixXd motion = course(system.bearings[i], series);
-    SpaceMotion::Bearing bearing{b.element(), b.body, b.on, -b.stiffness * motion};
-    if (from_others[i].size() > 0) bearing.force += from_others[i];
-    bearing.force.colwise() -= b.preload;
-    if (b.standing.any())
-      bearing.force -= b.standing * angle.cos().matrix().transpose() +
-                       quarter_turn_later(b.standing) * angle.sin().matrix().transpose();
-    if (b.law) {
-      const Eigen::MatrixXd beyond = beyond_stiffness(b, motion);
+    const auto& b = supports.bearings[i];
+    const bool by_coupling = coupled.by_law[i].size() > 0, nonlinear = b.law || by_coupling;
+    if (b.stiffness.isZero(0) && !nonlinear) continue;  // all that it does is rigid
+    const auto motion = course(system.bearings[i], series);
+    SpaceMotion::Bearing bearing{b.element(), b.body, b.on, linear_force(b, motion, angle)};
+    if (coupled.from_others[i].size() > 0) bearing.force += coupled.from_others[i];
+    if (nonlinear) {
+      Eigen::MatrixXd by_law =
+          by_coupling
+              ? coupled.by_law[i]
+              : Eigen::MatrixXd(linear_force(beside_law(supports, i), motion, angle) + beyond_stiffness(b, motion));
       if (whole)
-        bearing.force += beyond;
+        bearing.force = std::move(by_law);
       else
-        bearing.law_deviation = deviation(b, beyond, angle, lever) / mean_force;
+        bearing.law_deviation = largest_force(by_law - bearing.force, lever) / mean_force;
     }
     for (Eigen::Index k = 0; k < 5; ++k)
       if (b.rigid.at(static_cast<std::size_t>(k))) bearing.force.row(k).setConstant(not_known);
@@ -87,7 +107,8 @@ SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& sy
   for (Eigen::Index m = 0; m < meshes; ++m) {
     const auto& face = *system.faces[static_cast<std::size_t>(m)];
     const auto force = series.force.row(m), tilt = series.force.row(meshes + m);
-    SpaceMotion::Mesh mesh{series.meshes[static_cast<std::size_t>(m)], not_known, Eigen::VectorXd(times)};
+    SpaceMotion::Mesh mesh{series.meshes[static_cast<std::size_t>(m)], face.width, face.shape != nullptr, not_known,
+                           Eigen::VectorXd(times)};
     const double size = force.cwiseAbs().mean();
     if (size > 0) mesh.mean_place = face.width / 2 * tilt.sum() / force.sum();
     for (Eigen::Index t = 0; t < times; ++t)

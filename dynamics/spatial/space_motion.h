@@ -18,13 +18,15 @@ struct SpaceMotion {
     /// in rigid coordinates.
     Eigen::MatrixXd force;
     /// Of a bearing with its tangents: the largest difference of force, and moment over half the face width, to its
-    /// whole law, over the mean mesh force.
+    /// whole law (or that of its coupling), over the mean mesh force.
     double law_deviation = 0;
   };
   static constexpr double light = 0.05;  ///< of the mean force: where a mesh carries less, its place says nothing
   struct Mesh {
     std::string name;
-    double mean_place = 0;  ///< m, of the mean force and moment
+    double face_width = 0;    ///< m
+    bool solid_face = false;  ///< of solid gears (SpreadFace::shape)
+    double mean_place = 0;    ///< m, of the mean force and moment
     /// m, z of the resultant from the middle of the common face; not known of light forces.
     Eigen::VectorXd place;
   };

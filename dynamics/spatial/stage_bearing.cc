@@ -68,8 +68,8 @@ void add_reasons(std::vector<std::string>& reasons, const std::vector<StageBeari
   }
 }
 
-std::vector<BearingPart> parts_of(const StageBearing& b, Freedom freedom) {
-  const bool space = freedom == Freedom::space;
+std::vector<BearingPart> parts_of(const StageBearing& b, Motions motions) {
+  const bool space = motions == Motions::in_space;
   std::vector<BearingPart> parts;
   const auto linear = [&](std::vector<int> coordinates, const Eigen::MatrixXd& stiffness) {
     parts.push_back({std::move(coordinates), std::make_shared<LinearLaw>(stiffness)});
@@ -87,7 +87,7 @@ std::vector<BearingPart> parts_of(const StageBearing& b, Freedom freedom) {
     return parts;
   }
   if (b.row) {
-    const auto row = law_of(*b.row, freedom);
+    const auto row = law_of(*b.row, motions);
     parts.push_back({row->coordinates(), row, true, row});
   } else if (!b.distance.empty()) {
     parts.push_back({{0, 1}, std::make_shared<TableLaw>(b.distance, b.force), true});
@@ -118,9 +118,9 @@ std::vector<BearingPart> parts_of(const StageBearing& b, Freedom freedom) {
   return parts;
 }
 
-bool bends(const StageBearing& bearing) {
-  const auto parts = parts_of(bearing, Freedom::space);
-  return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.bends; });
+bool is_nonlinear(const StageBearing& bearing) {
+  const auto parts = parts_of(bearing, Motions::in_space);
+  return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.nonlinear; });
 }
 
 }  // namespace annulus::dynamics

@@ -39,12 +39,12 @@ struct StageBearing {
 struct BearingPart {
   std::vector<int> coordinates;
   std::shared_ptr<const ElasticLaw> law;
-  bool bends = false;                          ///< its force is no linear function of the deflection
+  bool nonlinear = false;                      ///< in its deflections
   std::shared_ptr<const RollingRowLaw> row{};  ///< the law, where it has rolling elements
 };
 /// All parts. Throws InputError for sizes that no bearing has.
-[[nodiscard]] std::vector<BearingPart> parts_of(const StageBearing& bearing, Freedom freedom);
-[[nodiscard]] bool bends(const StageBearing& bearing);
+[[nodiscard]] std::vector<BearingPart> parts_of(const StageBearing& bearing, Motions motions);
+[[nodiscard]] bool is_nonlinear(const StageBearing& bearing);
 
 /// A force and a moment on a body at a point (m, from the middle of the stage's axis, or a planet's).
 struct StageLoad {

@@ -16,9 +16,9 @@ struct StageBody {
 [[nodiscard]] std::string name_of_body(const StageBody& body);
 
 /// Motions of bodies: in the plane alone, or along the axis and tilting as well.
-enum class Freedom { plane, space };
+enum class Motions { in_plane, in_space };
 
-/// How bearings whose force bends act in motion: with their tangents in the equilibrium, or by their whole law.
+/// How nonlinear bearings act in motion: with their tangents at the equilibrium, or by their whole law.
 enum class BearingLaws { tangents, whole };
 
 /// Frames in which bearings, loads and results are stated. z points along the axis in all of them.

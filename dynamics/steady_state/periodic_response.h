@@ -63,9 +63,8 @@ struct PeriodicResponse : PeriodicSolution, ResponseWindow {
 /// many each time. A finer sampling than `samples_per_cycle` that does not converge is dropped.
 ///
 /// The excitation must repeat after `period` (s), which spans `cycles` mesh cycles. The iteration starts from the
-/// response with constant mesh stiffness and, where that fails, from the equilibria at all times; it finds stable and
-/// unstable solutions. Rigid motions are fixed by
-/// nu^T M q = 0 in the mean over the period.
+/// response with constant mesh stiffness and, where that fails, from the equilibria at all times. It finds stable and
+/// unstable solutions. Rigid motions are fixed by nu^T M q = 0 in the mean over the period.
 ///
 /// Without convergence the last iterate is returned with `converged` false. A system whose mesh vectors move gives
 /// `trouble` alone. Throws InputError when period, options or a load out of balance cannot be used, SolverError when

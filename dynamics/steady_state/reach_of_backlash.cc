@@ -68,8 +68,8 @@ double bound_over_deflection(const LumpedSystem& system, const SteadyProblem& pr
   Eigen::VectorXd bound = Eigen::VectorXd::Zero(count);
   for (const auto& mode : modes(system, tangent).modes) {
     if (mode.frequency == 0) continue;
-    const double rate = 2 * std::numbers::pi * mode.frequency;
-    const Eigen::MatrixXd at = linear.mesh_transfer(rate, 1);
+    const double own_rate = 2 * std::numbers::pi * mode.frequency;
+    const Eigen::MatrixXd at = linear.mesh_transfer(own_rate, 1);
     const Eigen::MatrixXcd transfer = at.leftCols(count) + std::complex<double>(0, 1) * at.rightCols(count);
     const double line = mode.frequency * period;
     const auto first = static_cast<Eigen::Index>(std::max(1.0, std::ceil(lowest * line)));
@@ -78,9 +78,9 @@ double bound_over_deflection(const LumpedSystem& system, const SteadyProblem& pr
       bound = bound.cwiseMax((transfer * lines.row(h).transpose()).cwiseAbs());
     for (const auto& load : system.harmonic_loads()) {
       const double own = std::abs(load.rate);
-      if (own < lowest * rate || own > highest * rate) continue;
+      if (own < lowest * own_rate || own > highest * own_rate) continue;
       const Eigen::VectorXcd force = load.cosine - std::complex<double>(0, 1) * load.sine;
-      bound = bound.cwiseMax((linear.mesh_vectors().transpose() * linear.displacement(rate, force)).cwiseAbs());
+      bound = bound.cwiseMax((linear.mesh_vectors().transpose() * linear.displacement(own_rate, force)).cwiseAbs());
     }
   }
   double reach = 0;

@@ -51,7 +51,7 @@ class SampledMeshes {
   double step_ = 0;
   std::vector<std::vector<Piece>> pieces_;  // per sample; empty when no stiffness jumps
   Eigen::MatrixXd tangent_, damping_;
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs_;  // meshes whose force depends on another's deflection
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs_;  // the force of the first depends on the second
   Eigen::MatrixXd coupled_, block_;  // dF/d delta of the pairs, samples x pairs; meshes x meshes
   // Present sample, per mesh.
   Eigen::VectorXd approach_, rate_, moved_, force_;

@@ -6,7 +6,8 @@
 
 namespace annulus::dynamics {
 
-/// Forces over the deflections of some meshes that have a potential.
+/// Forces over the deflections of some meshes that have a potential. Unlike an ElasticLaw it need not be convex, and it
+/// writes where the right-hand side wants it.
 class ForceLaw {
  public:
   ForceLaw() = default;
@@ -21,7 +22,7 @@ class ForceLaw {
   [[nodiscard]] virtual double energy(const double* deflection) const = 0;  ///< J
 };
 
-/// That of a bearing over two directions at right angles: along the motion.
+/// Radial force of a bearing over its deflections in two directions at right angles. It acts along the deflection.
 [[nodiscard]] std::shared_ptr<const ForceLaw> radial_law(const RadialBearing& bearing);
 
 }  // namespace annulus::dynamics

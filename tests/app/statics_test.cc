@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(files_and_warnings) {
   BOOST_TEST(pair.err.find("planetary stages alone") != std::string::npos, pair.err);
 }
 
-BOOST_AUTO_TEST_CASE(degrees_of_freedom_in_the_plan) {
+BOOST_AUTO_TEST_CASE(degrees_of_motions_in_the_plan) {
   const test::TemporaryFolder folder("statics_7");
   const auto plan_of = [&](const std::string& tables) {
     write_file(folder.path() / "scene.toml",
@@ -360,7 +360,7 @@ BOOST_AUTO_TEST_CASE(a_row_that_is_loaded_the_wrong_way_is_refused) {
   write_file(folder.path() / "scene.toml", scene(-50e3));
   const auto outcome = test::run_program(folder.path(), "statics scene.toml --out out --quiet");
   BOOST_TEST(outcome.status == 2);
-  BOOST_TEST(outcome.err.find("nothing bears the load of the carrier along -z") != std::string::npos, outcome.err);
+  BOOST_TEST(outcome.err.find("the carrier would move by") != std::string::npos, outcome.err);
 }
 
 BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {

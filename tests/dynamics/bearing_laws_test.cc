@@ -74,7 +74,9 @@ BOOST_AUTO_TEST_CASE(forces_are_those_of_the_law) {
       Stiffness::Constant(1e5) + Stiffness(Eigen::Vector<double, 5>(2e8, 3e8, 1e8, 2e5, 4e5).asDiagonal());
   bearing.preload.setConstant(100);
   give_law(bearing, ball_row(), axes);
-  BOOST_TEST(beside_law(bearing).preload.isZero(0));
+  SpaceSupports supports;
+  supports.bearings = {bearing};
+  BOOST_TEST(beside_law(supports, 0).preload.isZero(0));
   const auto [system, motion] = held(bearing, 0.05);
   Eigen::Vector<double, 10> y = Eigen::Vector<double, 10>::Zero();
   y.head<5>() << 25e-6, -12e-6, 30e-6, 2e-4, -1e-4;
@@ -83,7 +85,7 @@ BOOST_AUTO_TEST_CASE(forces_are_those_of_the_law) {
   system.rhs(0, y.data(), rate.data(), workspace);
   Stiffness turn = Stiffness::Identity();
   turn.topLeftCorner<2, 2>() = turn.bottomRightCorner<2, 2>() = Eigen::Rotation2Dd(-axes).toRotationMatrix();
-  const auto law = law_of(*ball_row().row, Freedom::space);
+  const auto law = law_of(*ball_row().row, Motions::in_space);
   const Eigen::Vector<double, 5> expected = turn.transpose() * law->at(turn * y.head<5>()).force;
   record.at_most("forces over the largest", "", (rate.tail<5>() + expected).cwiseAbs().maxCoeff() / expected.norm(),
                  1e-9, "rounding");

@@ -155,6 +155,30 @@ BOOST_AUTO_TEST_CASE(lumped_stage_in_a_housing) {
   }
 }
 
+// Bearings with clearance in a housing past which nothing turns, about the equilibrium of another torque.
+BOOST_AUTO_TEST_CASE(clearance_in_a_housing_that_stands) {
+  annulus::test::Verification record("Housing that gives way", "statics, with clearance");
+  auto s = stage();
+  s.plane.carrier_speed = 0;
+  s.housing = housing_without_pattern(true);
+  for (const std::size_t b : {6U, 7U}) {
+    s.bearings[b].play = 60e-6;
+    s.bearings[b].load_zone = false;
+  }
+  auto moving = lumped(s);
+  moving.space->laws = BearingLaws::whole;
+  for (const double share : {1.0, 0.3}) {
+    s.plane.sun_torque *= share;
+    moving.sun_torque = s.plane.sun_torque;
+    const auto expected = statics(s).positions.front();
+    const auto found = solved(moving);
+    for (std::size_t m = 0; m < 6; ++m)
+      record.close("mesh forces", "N", found.force[m],
+                   m < 3 ? expected.sun_meshes[m].force : expected.ring_meshes[m - 3].force, 1e-7,
+                   "residual of the equilibria");
+  }
+}
+
 // A housing that is the same in all directions looks the same to a carrier that turns: then nothing is averaged, and
 // the turning stage rests as the mechanism does in every position.
 BOOST_AUTO_TEST_CASE(turning_past_an_even_housing) {

@@ -347,13 +347,63 @@ BOOST_AUTO_TEST_CASE(bearings_act_by_their_law) {
       const Eigen::Matrix2d turn = Eigen::Rotation2Dd(-bearing.law_axes).toRotationMatrix();
       d.head<2>() = (turn * d.head<2>()).eval();
       d.tail<2>() = (turn * d.tail<2>()).eval();
-      const auto part = parts_of(*bearing.law, Freedom::space).front();
+      const auto part = parts_of(*bearing.law, Motions::in_space).front();
       const auto tangent = part.law->at(d(part.coordinates)).tangent;
       record.close("radial stiffness of bearings, both directions", "N/m", tangent(0, 0) + tangent(1, 1),
                    bearing.stiffness(0, 0) + bearing.stiffness(1, 1), 1e-5, "residual of the equilibrium");
     }
     record.close("mesh force", "N", b.force, heavier.static_force(), 1e-9, "residual of the equilibrium");
   }
+}
+
+// With tangents the response states the largest difference to the law in the motion found.
+BOOST_AUTO_TEST_CASE(deviation_of_the_tangents) {
+  annulus::test::Verification record("Helical pair in bearings with clearance",
+                                     "force of a stop over its displacement");
+  constexpr double stiffness = 2e9, play = 40e-6;
+  auto pair = linear_pair();
+  pair.mesh = HarmonicStiffness{mean_stiffness(pair.mesh), 0.3, 0};
+  auto s = spatial(pair, unlike_bearings());
+  s.bearings[0].play = play;
+  s.bearings[0].load_zone = false;
+  const auto tangents = lumped(pair, s);
+  SimulationOptions options;
+  options.keep_series = true;
+  const auto response = evaluate_pair(tangents, options);
+  const auto& series = response.series;
+  const auto& bearing = tangents.space->bearings[0];
+  const auto motion = bearing_coordinates(tangents)[0];
+  double largest = 0;
+  for (Eigen::Index t = 0; t < series.time.size(); ++t) {
+    Eigen::Vector2d d = Eigen::Vector2d::Zero();
+    for (const std::size_t i : {0U, 1U})
+      for (const auto& [dof, factor] : motion[i])
+        d[static_cast<Eigen::Index>(i)] += factor * series.displacement(dof, t);
+    const Eigen::Vector2d law = stiffness * (d - play * d.normalized());
+    const Eigen::Vector2d tangent = bearing.stiffness.topLeftCorner<2, 2>() * d + bearing.preload.head<2>();
+    largest = std::max(largest, (law - tangent).norm());
+  }
+  const auto found = space_motion(tangents, series).bearings[0].law_deviation;
+  BOOST_TEST(found > 1e-4);
+  record.close("largest difference over the mean mesh force", "", found, largest / series.force.row(0).mean(), 1e-5,
+               "1e-7 of the stiffness within the clearance, over the difference");
+  auto laws = tangents;
+  laws.space->laws = BearingLaws::whole;
+  const auto whole = evaluate_pair(laws, options);
+  const auto forces = space_motion(laws, whole.series).bearings[0].force;
+  // By its law the bearing has the force of the stop.
+  double worst = 0;
+  for (Eigen::Index t = 0; t < whole.series.time.size(); ++t) {
+    Eigen::Vector2d d = Eigen::Vector2d::Zero();
+    for (const std::size_t i : {0U, 1U})
+      for (const auto& [dof, factor] : motion[i])
+        d[static_cast<Eigen::Index>(i)] += factor * whole.series.displacement(dof, t);
+    const Eigen::Vector2d law = stiffness * (d - play * d.normalized());
+    const Eigen::Vector2d force = forces.col(t).head<2>();
+    worst = std::max(worst, (force + law).norm() / law.norm());
+  }
+  record.at_most("force of the stop over its displacement", "", worst, 1e-6,
+                 "1e-7 of the stiffness within the clearance");
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {

@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(force_and_tangent_belong_to_the_energy) {
   rows.push_back({balls(16, 40 * deg), {3e-5, -2e-5}});
   double force = 0, tangent = 0;
   for (const auto& [r, at] : rows) {
-    const auto law = law_of(r, at.size() > 2 ? Freedom::space : Freedom::plane);
+    const auto law = law_of(r, at.size() > 2 ? Motions::in_space : Motions::in_plane);
     const auto found = annulus::test::law_slopes(*law, vector(at), 1e-9);
     force = std::max(force, found.force);
     tangent = std::max(tangent, found.tangent);
@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(elements_share_a_radial_load) {
     row.pitch_diameter = 3;  // the balls have room
     // Far apart: the contact angle of the balls stays.
     row.inner_groove = row.outer_groove = 0.7;
-    const auto law = law_of(row, Freedom::space);
+    const auto law = law_of(row, Motions::in_space);
     const Eigen::VectorXd deflection = vector({1e-6, 0, 0, 0, 0});
     const auto state = law->at(deflection);
     record.close("largest load, " + contact, "",
@@ -110,11 +110,11 @@ BOOST_AUTO_TEST_CASE(cylindrical_rollers) {
   annulus::test::Verification record("Row of cylindrical rollers", "ISO/TS 16281: sums over the rollers by hand");
   auto row = rollers(200);
   const double c = line_stiffness(row), approach = 20e-6;
-  const double most = law_of(row, Freedom::plane)->largest_element_load(vector({approach, 0}));
+  const double most = law_of(row, Motions::in_plane)->largest_element_load(vector({approach, 0}));
   record.close("approach of the rings", "m", std::pow(most / c, 0.9), approach, 1e-6, "profile");
   // Preload: all rollers carry, and small motions meet a stiffness that is the same in both directions.
   row.clearance = -20e-6;
-  const auto still = law_of(row, Freedom::space)->at(Eigen::VectorXd::Zero(4));
+  const auto still = law_of(row, Motions::in_space)->at(Eigen::VectorXd::Zero(4));
   BOOST_TEST(still.force.norm() <= 1e-9 * row.count * c * std::pow(10e-6, 10.0 / 9));
   record.close("stiffness under preload", "N/m", still.tangent(0, 0),
                row.count / 2.0 * 10.0 / 9 * c * std::pow(10e-6, 1.0 / 9), 1e-6, "sum over the rollers");
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(cylindrical_rollers) {
     const double share = 2.0 * k / 31, profile = 0.00035 * 30e-3 * std::log(1 / (1 - share * share));
     sum += c / 31 * std::pow(std::max(0.0, 20e-6 - 2 * profile), 10.0 / 9);
   }
-  record.close("one roller with its profile", "N", law_of(profiled, Freedom::plane)->at(vector({20e-6, 0})).force[0],
+  record.close("one roller with its profile", "N", law_of(profiled, Motions::in_plane)->at(vector({20e-6, 0})).force[0],
                sum, 1e-6, "what holds the body in its play");
 }
 
@@ -136,16 +136,17 @@ BOOST_AUTO_TEST_CASE(tapered_rollers) {
   annulus::test::Verification record("Row of tapered rollers", "statics of the row by hand");
   const double angle = 14 * deg, thrust = 30e-6;
   const auto row = rollers(20, angle);
-  const auto state = law_of(row, Freedom::space)->at(vector({0, 0, thrust, 0, 0}));
+  const auto state = law_of(row, Motions::in_space)->at(vector({0, 0, thrust, 0, 0}));
   record.close("thrust", "N", state.force[2],
                row.count * std::sin(angle) * line_stiffness(row) * std::pow(thrust * std::sin(angle), 10.0 / 9), 1e-6,
                "what holds the body in its play");
-  BOOST_TEST(std::abs(law_of(row, Freedom::space)->at(vector({0, 0, -thrust, 0, 0})).force[2]) < 1e-5 * state.force[2]);
+  BOOST_TEST(std::abs(law_of(row, Motions::in_space)->at(vector({0, 0, -thrust, 0, 0})).force[2]) <
+             1e-5 * state.force[2]);
   for (const auto ring : {Ring::inner, Ring::outer}) {
     auto shorter = row;
     shorter.length = 1e-6;
     shorter.ring = ring;
-    const auto pressed = law_of(shorter, Freedom::space)->at(vector({2e-5, -1e-5, thrust, 1e-4, 2e-4}));
+    const auto pressed = law_of(shorter, Motions::in_space)->at(vector({2e-5, -1e-5, thrust, 1e-4, 2e-4}));
     BOOST_TEST(pressed.force[2] > 0);
     const double place = (ring == Ring::inner ? -1 : 1) * row.pitch_diameter / 2 * std::tan(angle);
     record.close("moment about y over the force along x", "m", pressed.force[4] / pressed.force[0], place, 1e-4,
@@ -170,7 +171,7 @@ BOOST_AUTO_TEST_CASE(angular_contact_balls) {
   for (const double loaded : {40.5 * deg, 42 * deg, 44 * deg}) {
     const double thrust = apart * (std::cos(angle) * std::tan(loaded) - std::sin(angle));
     const double delta = apart * (std::cos(angle) / std::cos(loaded) - 1);
-    record.close("thrust", "N", law_of(row, Freedom::space)->at(vector({0, 0, thrust, 0, 0})).force[2],
+    record.close("thrust", "N", law_of(row, Motions::in_space)->at(vector({0, 0, thrust, 0, 0})).force[2],
                  16 * std::pow(delta / compliance, 1.5) * std::sin(loaded), 1e-6, "what holds the body in its play");
   }
   // Under small loads the balls press along their contact angle, through the middle of the ball.
@@ -178,7 +179,7 @@ BOOST_AUTO_TEST_CASE(angular_contact_balls) {
     auto light = row;
     light.ring = ring;
     light.inner_groove = 0.9;
-    const auto pressed = law_of(light, Freedom::space)->at(vector({1e-8, 0, 1e-8, 0, 0}));
+    const auto pressed = law_of(light, Motions::in_space)->at(vector({1e-8, 0, 1e-8, 0, 0}));
     const double place = (ring == Ring::inner ? -1 : 1) * row.pitch_diameter / 2 * std::tan(angle);
     record.close("moment about y over the force along x", "m", pressed.force[4] / pressed.force[0], place, 1e-4,
                  "change of the contact angle, what holds the body in its play");
@@ -187,7 +188,7 @@ BOOST_AUTO_TEST_CASE(angular_contact_balls) {
   auto loose = balls(16);
   loose.clearance = 30e-6;
   const auto at = [](const RollingRow& r, double x) {
-    return law_of(r, Freedom::space)->largest_element_load(vector({x, 0, 0, 0, 0}));
+    return law_of(r, Motions::in_space)->largest_element_load(vector({x, 0, 0, 0, 0}));
   };
   record.close("radial clearance", "N", at(loose, 35e-6), at(balls(16), 20e-6), 1e-9, "rounding");
 }
@@ -229,7 +230,7 @@ BOOST_AUTO_TEST_CASE(contact_in_a_point) {
 
 BOOST_AUTO_TEST_CASE(rows_that_are_refused) {
   const auto refused = [](RollingRow row, const std::string& text) {
-    BOOST_CHECK_EXCEPTION((void)law_of(row, Freedom::space), annulus::InputError,
+    BOOST_CHECK_EXCEPTION((void)law_of(row, Motions::in_space), annulus::InputError,
                           [&](const auto& error) { return std::string(error.what()).find(text) != std::string::npos; });
   };
   refused(rollers(2), "three or more");
@@ -254,7 +255,7 @@ BOOST_AUTO_TEST_CASE(rows_that_are_refused) {
   row.diameter = 40e-3;
   row.pitch_diameter = 120e-3;
   row.outer_groove = 3;
-  BOOST_TEST(law_of(row, Freedom::space)->at(vector({1e-5, 0, 0, 0, 0})).force[0] > 0);
+  BOOST_TEST(law_of(row, Motions::in_space)->at(vector({1e-5, 0, 0, 0, 0})).force[0] > 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -382,7 +382,7 @@ BOOST_AUTO_TEST_CASE(tilt_clearance) {
   annulus::test::Verification record("Bearing with tilt clearance", "moment over stiffness, beyond the clearance");
   Mechanism mechanism(0.1);
   mechanism.add_body({"shaft"});
-  BearingAssembly bearings(mechanism, Freedom::space);
+  BearingAssembly bearings(mechanism, Motions::in_space);
   auto spline = bearing("spline", {Kind::sun}, {}, 0.2, rigid, rigid, 3e6);
   spline.tilt_play = 2e-3;
   (void)bearings.add(spline, {});

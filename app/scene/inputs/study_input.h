@@ -78,9 +78,8 @@ struct LoadSpectrumInput {
 
 struct LoadClassInput {
   std::string name;
-  static constexpr double hour = 3600;  ///< s
-  double duration = 0;                  ///< s
-  std::vector<double> values;           ///< one per input
+  double duration = 0;         ///< s
+  std::vector<double> values;  ///< one per input
 };
 
 struct SensitivityInput {

@@ -23,16 +23,6 @@ namespace {
 
 using Body = dynamics::StageBody::Kind;
 
-bool has_bearing(const Scene& scene, Body body) {
-  const auto& bearings = scene.own<SpaceInput>().bearings;
-  return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
-}
-bool has_radial_bearing(const Scene& scene, Body body) {
-  const auto& bearings = scene.own<SpaceInput>().bearings;
-  return std::any_of(bearings.begin(), bearings.end(),
-                     [&](const auto& b) { return b.body == body && b.holds_radially(); });
-}
-
 /// The pair without its face and its stiffness.
 dynamics::SpatialPair spatial_pair(const Scene& scene, const PairGeometry& geometry) {
   const auto& space = scene.own<SpaceInput>();
@@ -46,8 +36,8 @@ dynamics::SpatialPair spatial_pair(const Scene& scene, const PairGeometry& geome
   for (const auto& input : space.bearings) pair.bearings.push_back(stage_bearing(input, {input.body}, input.name));
   // A gear without bearings has those of its table in the middle; it tilts only where others hold it.
   for (const auto& [body, gear] : {std::pair{Body::pinion, &scene.pinion}, {Body::wheel, &scene.wheel}}) {
-    if (has_radial_bearing(scene, body)) continue;
-    const bool any = has_bearing(scene, body);
+    if (space.has_radial_bearing(body)) continue;
+    const bool any = space.has_bearing(body);
     dynamics::StageBearing support;
     support.name = "support";
     support.body = {body};
@@ -138,11 +128,11 @@ std::vector<Warning> pair_space_warnings(const Scene& scene) {
   for (const auto& [body, name, gear, tilting] :
        {std::tuple{Body::pinion, "pinion", &scene.pinion, &space.tilt_inertia.pinion},
         {Body::wheel, "wheel", &scene.wheel, &space.tilt_inertia.wheel}}) {
-    if (!has_bearing(scene, body)) held.emplace_back(name);
+    if (!space.has_bearing(body)) held.emplace_back(name);
     if (!*tilting) assumed.push_back(fmt::format("tilt_inertia.{}_kg_m2", name));
     const auto key = fmt::format("{}.bearing_transverse_N_per_m", name);
     const auto* input = scene.find(key);
-    if (input != nullptr && input->origin == Origin::scene && has_radial_bearing(scene, body))
+    if (input != nullptr && input->origin == Origin::scene && space.has_radial_bearing(body))
       list.push_back({"support_replaced", Severity::warning,
                       fmt::format("{} is left out: the {} is held by its [[bearing]] tables alone", key, name)});
   }

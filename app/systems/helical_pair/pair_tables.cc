@@ -182,7 +182,7 @@ std::vector<Table> pair_tables() {
                                transmission_error_table()};
   auto space = space_tables({.bodies = {{"pinion", Body::pinion, &GravityInput::pinion, &TiltInertiaInput::pinion},
                                         {"wheel", Body::wheel, &GravityInput::wheel, &TiltInertiaInput::wheel}},
-                             .frames = SpaceSystem::Frames::housing});
+                             .frames = KindInSpace::Frames::housing});
   std::move(space.begin(), space.end(), std::back_inserter(tables));
   return tables;
 }

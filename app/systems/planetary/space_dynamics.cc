@@ -41,22 +41,11 @@ dynamics::StageSpace::TiltInertia tilt_inertias(const Scene& scene, const GearGe
           of({"planet", given.planet, *scene.planet.mass, *scene.planet.inertia, width(set.planet())})};
 }
 
-bool depends_on_direction(const BearingInput& b) {
-  const bool in_housing = b.body != dynamics::StageBody::Kind::planet && b.frame == dynamics::StageFrame::housing;
-  return in_housing && (!b.matrix.empty() || (b.x && b.y && *b.x != *b.y));
-}
-
 }  // namespace
 
 bool moves_in_space(const Scene& scene) {
   const auto& structure = scene.own<StructureInput>();
   return scene.own<SpaceInput>().any() || structure.carrier || structure.housing;
-}
-
-bool has_radial_bearing(const Scene& scene, dynamics::StageBody::Kind body) {
-  const auto& bearings = scene.own<SpaceInput>().bearings;
-  return std::any_of(bearings.begin(), bearings.end(),
-                     [&](const auto& b) { return b.body == body && !b.planet && b.holds_radially(); });
 }
 
 void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const GearGeometry& geometry, std::size_t ring,
@@ -69,8 +58,9 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
   spatial.plane.planet.mass = stage.planet.mass;
   for (const auto& [face, mesh] : {std::pair{&spatial.sun_face, &sun_mesh}, {&spatial.ring_face, &ring_mesh}})
     if (mesh->face) face->symmetric = fem::asymmetry_of_face(*mesh->model.problem).empty();
+  const auto inertias = tilt_inertias(scene, geometry, ring);
   try {
-    stage.space = dynamics::space_about_equilibrium(spatial, tilt_inertias(scene, geometry, ring));
+    stage.space = dynamics::space_about_equilibrium(spatial, inertias);
     stage.space->laws = scene.dynamics->bearing_laws;
   } catch (const InputError& error) {
     throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
@@ -95,7 +85,8 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
     list.push_back({"mass_in_middle", Severity::warning,
                     "the inertia of planets acts in the middle of their face in the dynamics, their weight at "
                     "gravity.planet_at_mm"});
-  std::vector<std::string> in_series, directed;
+  std::vector<std::string> past_carrier, directed;
+  const bool turns = frame.plane.carrier_speed != 0;
   const auto in_housing = [&](const BearingInput& b) {
     const auto& housing = scene.own<StructureInput>().housing;
     if (!housing) return false;
@@ -103,19 +94,18 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
     return std::find(points.begin(), points.end(), column_of(b.name)) != points.end();
   };
   for (const auto& b : space.bearings) {
-    const auto made = stage_bearing(b, {b.body}, b.name);
-    const bool on_pins =
-        frame.pins && b.body == dynamics::StageBody::Kind::planet && made.on.kind == dynamics::StageBody::Kind::carrier;
-    if ((on_pins || in_housing(b)) && dynamics::bends(made)) in_series.push_back("'" + b.name + "'");
-    if (depends_on_direction(b) || in_housing(b)) directed.push_back("'" + b.name + "'");
+    if (turns && in_housing(b) && dynamics::is_nonlinear(stage_bearing(b, {b.body}, b.name)))
+      past_carrier.push_back("'" + b.name + "'");
+    const bool on_housing = stage_bearing(b, {b.body}, b.name).on.kind == dynamics::StageBody::Kind::housing;
+    if ((on_housing && b.has_directions()) || in_housing(b)) directed.push_back("'" + b.name + "'");
   }
-  if (!in_series.empty())
+  if (!past_carrier.empty())
     list.push_back(
         {"bearings_linear", Severity::warning,
-         fmt::format("bearing {} stands on pins, a carrier or a housing that gives way: the dynamics has its "
-                     "stiffness at the equilibrium at time 0, and the force that it bears there. Motions that "
-                     "change its load by a large part of it are not right; annulus statics has its whole law",
-                     fmt::join(in_series, ", "))});
+         fmt::format("the housing gives way under {} while the carrier turns. In the dynamics these bearings have "
+                     "their stiffness at the equilibrium at time 0, and the force that they bear there. Vibrations "
+                     "that change their load by a large part are not right; annulus statics has their whole law",
+                     fmt::join(past_carrier, ", "))});
   if (!directed.empty())
     list.push_back({"bearings_averaged", Severity::warning,
                     fmt::format("the stiffness of bearing {} in the housing depends on the direction; the dynamics has "

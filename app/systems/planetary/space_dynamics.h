@@ -17,9 +17,6 @@ namespace annulus::app {
 /// Whether the scene has [[bearing]] or [[load]] tables or [gravity], with which its bodies move in space.
 [[nodiscard]] bool moves_in_space(const Scene& scene);
 
-/// Whether a body, or every planet, has a [[bearing]] that holds it radially.
-[[nodiscard]] bool has_radial_bearing(const Scene& scene, dynamics::StageBody::Kind body);
-
 /// Replaces the supports of a stage in the plane by its bearings. Throws InputError where something moves freely.
 void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                   const MeshResult& sun_mesh, const MeshResult& ring_mesh);

@@ -46,7 +46,7 @@ std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geome
         b.name.resize(b.name.size() - own.size());
       bearings.push_back(std::move(b));
     }
-    const auto in_series = [&](DofPlan dof) {
+    const auto in_series = [&, kind = kind](DofPlan dof) {
       if (kind == Body::planet && stage.pins) return DofPlan{dof.name, true, "pins and carrier give way"};
       if (in_housing(stage, kind)) return DofPlan{dof.name, true, "the housing gives way"};
       return dof;

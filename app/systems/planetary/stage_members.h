@@ -62,7 +62,7 @@ ANNULUS_MEMBERS(app::StageMotion, pin_force_max, pin_force_mean, load_zone, sun_
                 space, sun_orbit, poincare);
 ANNULUS_MEMBERS(app::SpaceResults::Bearing, name, radial_mean, radial_max, axial_mean, axial_max, moment_max,
                 law_deviation);
-ANNULUS_MEMBERS(app::SpaceResults::Mesh, name, place_mean, place_min, place_max);
+ANNULUS_MEMBERS(app::SpaceResults::Mesh, name, place_mean, place_min, place_max, face_width, solid_face);
 ANNULUS_MEMBERS(app::SpaceResults, bearings, meshes, table);
 ANNULUS_MEMBERS(app::StageResponse, figures, errors, modes, motion, load_sharing, force_factors, waveform,
                 sharing_waveform, spectrum, time_series, reused);

@@ -11,6 +11,7 @@
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/strain_gauges.h"
+#include "app/systems/shared/space_input.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -51,7 +52,7 @@ std::vector<std::string> rigid_unasked(const Scene& scene) {
   for (const auto& [body, key] : {std::pair{dynamics::StageBody::Kind::planet, "supports.planet_N_per_m"},
                                   {dynamics::StageBody::Kind::carrier, "supports.carrier_N_per_m"},
                                   {dynamics::StageBody::Kind::ring, "supports.ring_N_per_m"}})
-    if (has_radial_bearing(scene, body)) std::erase(keys, key);
+    if (scene.own<SpaceInput>().has_radial_bearing(body)) std::erase(keys, key);
   return keys;
 }
 

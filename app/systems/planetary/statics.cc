@@ -101,7 +101,7 @@ std::vector<BearingStatics> all_bearings(const dynamics::SpatialStage& stage, co
     bearing.radial = most([](const auto& x) { return x.force.template head<2>().norm(); });
     bearing.axial = most([](const auto& x) { return std::abs(x.force.z()); });
     bearing.moment = most([](const auto& x) { return x.moment.norm(); });
-    if (made.bearings.at(b).row) bearing.element = most([](const auto& x) { return x.largest_element; });
+    if (made.bearings.at(b).rolling) bearing.element = most([](const auto& x) { return x.largest_element; });
     for (const auto& p : turn.positions) bearing.mean_radial += p.bearings[b].force.head<2>().norm();
     bearing.mean_radial /= static_cast<double>(turn.positions.size());
     list.push_back(std::move(bearing));
@@ -198,6 +198,22 @@ void warn_of_loads_beyond(std::vector<Warning>& list, const StaticTurn& turn, co
        ring});
 }
 
+/// Bearings that bear more than the end of their table.
+void warn_of_bearing_tables(std::vector<Warning>& list, const StaticTurn& turn, const dynamics::SpatialStage& stage,
+                            const std::string& ring) {
+  for (std::size_t i = 0; i < stage.bearings.size(); ++i) {
+    const auto& bearing = stage.bearings[i];
+    if (bearing.force.empty()) continue;
+    const double most = largest(turn, [&](const StaticPosition& p) { return p.bearings.at(i).force.head<2>().norm(); });
+    if (most > bearing.force.back())
+      list.push_back({"bearing_beyond_table", Severity::warning,
+                      fmt::format("bearing '{}' bears up to {:.3g} N radially, more than the {:.3g} N at which its "
+                                  "table ends; the last piece is continued there",
+                                  bearing.name, most, bearing.force.back()),
+                      ring});
+  }
+}
+
 struct RingProblem {
   const Scene& scene;
   const GearGeometry& geometry;
@@ -261,6 +277,7 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
   result.worst_residual = largest(result.turn, [](const StaticPosition& p) { return p.residual_relative; });
   result.warnings = space_warnings(of.scene, of.ring, stage, faces);
   warn_of_back_flanks(result.warnings, result.turn, stage, result.ring);
+  warn_of_bearing_tables(result.warnings, result.turn, stage, result.ring);
   const double normal_factor = std::cos(stage.base_helix_angle);
   if (!faces.sun) warn_of_loads_beyond(result.warnings, result.turn, of.sun_mesh, true, result.ring, normal_factor);
   if (!faces.ring) warn_of_loads_beyond(result.warnings, result.turn, of.ring_mesh, false, result.ring, normal_factor);

@@ -186,7 +186,7 @@ std::vector<Table> structure_tables() {
                                {"planet", Body::planet, &GravityInput::planet, &TiltInertiaInput::planet},
                                {"ring", Body::ring, &GravityInput::ring, &TiltInertiaInput::ring},
                                {"carrier", Body::carrier, &GravityInput::carrier, &TiltInertiaInput::carrier}},
-                    .frames = SpaceSystem::Frames::housing_and_carrier});
+                    .frames = KindInSpace::Frames::housing_and_carrier});
   tables.insert(tables.end() - 2, {carrier_structure_table(), housing_table()});
   tables.push_back(statics_table());
   return tables;

@@ -110,8 +110,8 @@ std::vector<Warning> face_warnings(const std::vector<std::pair<std::string, cons
     if (mesh->face && !mesh->face->tilted)
       list.push_back(
           {"face_without_error", Severity::warning,
-           fmt::format("error bars do not contain how the {} changes along its face as the gears tilt: where "
-                       "one end approaches by half as much again as the middle, the other end loses contact",
+           fmt::format("error bars do not contain the change of the {} along its face when gears tilt. A tilt by half "
+                       "of the approach already takes one end of the face out of contact",
                        name),
            ring});
     if (mesh->face && mesh->face->error_relative > accuracy)

@@ -1,5 +1,6 @@
 #include "app/systems/shared/space_input.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace annulus::app {
@@ -36,7 +37,10 @@ dynamics::StageBearing stage_bearing(const BearingInput& input, const dynamics::
   b.name = std::move(name);
   b.body = body;
   b.on = {input.on.value_or(planet ? Body::carrier : Body::housing)};
-  b.frame = planet ? dynamics::StageFrame::planet : input.frame;
+  // x and y point in the frame of what it stands on.
+  b.frame = planet                       ? dynamics::StageFrame::planet
+            : b.on.kind == Body::carrier ? dynamics::StageFrame::carrier
+                                         : dynamics::StageFrame::housing;
   b.place = input.place;
   b.x = input.x.value_or(input.radial.value_or(0));
   b.y = input.y.value_or(input.radial.value_or(0));
@@ -64,6 +68,15 @@ dynamics::StageLoad stage_load(const LoadInput& input, const dynamics::StageBody
 Eigen::Vector3d GravityInput::vector() const {
   const double in_plane = acceleration * std::cos(inclination);
   return {in_plane * std::cos(direction), in_plane * std::sin(direction), acceleration * std::sin(inclination)};
+}
+
+bool SpaceInput::has_bearing(Body body) const {
+  return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
+}
+
+bool SpaceInput::has_radial_bearing(Body body) const {
+  return std::any_of(bearings.begin(), bearings.end(),
+                     [&](const auto& b) { return b.body == body && b.holds_radially(); });
 }
 
 }  // namespace annulus::app

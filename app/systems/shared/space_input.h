@@ -16,7 +16,6 @@ struct BearingInput {
   Body body = Body::carrier;
   std::optional<int> planet;  ///< 1, 2, ...; absent: every planet
   std::optional<Body> on;     ///< absent: the housing, of planets the carrier
-  dynamics::StageFrame frame = dynamics::StageFrame::housing;
   double place = 0;
   std::optional<double> radial, x, y;
   double axial = 0, tilt = 0;
@@ -30,6 +29,8 @@ struct BearingInput {
   std::optional<dynamics::RollingRow::Ring> ring;  ///< absent: planets have the outer one, other bodies the inner one
 
   [[nodiscard]] bool rolls() const { return rollers || balls; }
+  /// Does it hold differently along x and y?
+  [[nodiscard]] bool has_directions() const { return !matrix.empty() || (x && y && *x != *y); }
   [[nodiscard]] bool holds_radially() const {
     return radial || x || y || rolls() || !displacement.empty() || !matrix.empty();
   }
@@ -73,6 +74,8 @@ struct SpaceInput {
   TiltInertiaInput tilt_inertia;
 
   [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity; }
+  [[nodiscard]] bool has_bearing(BearingInput::Body body) const;
+  [[nodiscard]] bool has_radial_bearing(BearingInput::Body body) const;
 };
 
 }  // namespace annulus::app

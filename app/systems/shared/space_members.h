@@ -12,7 +12,10 @@ ANNULUS_MEMBERS(dynamics::RollingRow, element, count, diameter, length, pitch_di
 ANNULUS_MEMBERS(dynamics::StageBearing, name, body, on, frame, place, x, y, axial, tilt, play, load_zone, axial_play,
                 tilt_play, distance, force, row, seat, matrix);
 ANNULUS_MEMBERS(dynamics::LinearBearing, name, body, on, place, stiffness, rigid, preload, standing, law, law_axes);
-ANNULUS_MEMBERS(dynamics::LinearCoupling, name, bearings, stiffness, turned, turning_preload);
+ANNULUS_MEMBERS(dynamics::BearingsInSeries::Seated, bearing, first, place);
+ANNULUS_MEMBERS(dynamics::BearingsInSeries::Spring, coordinate, stiffness);
+ANNULUS_MEMBERS(dynamics::BearingsInSeries, motions, below, held, bearings, springs);
+ANNULUS_MEMBERS(dynamics::LinearCoupling, name, bearings, stiffness, turned, turning_preload, law);
 ANNULUS_MEMBERS(dynamics::SpaceLoad, body, load);
 ANNULUS_MEMBERS(dynamics::StandingLoad, body, cosine, sine);
 ANNULUS_MEMBERS(dynamics::SpaceSupports, laws, bearings, couplings, loads, standing_loads);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,9 @@ struct SpaceResults {
   struct Mesh {
     std::string name;
     double place_mean = not_known, place_min = not_known, place_max = not_known;
+    double face_width = not_known;  ///< m
+    bool solid_face = false;
+    [[nodiscard]] double furthest() const { return std::max(std::abs(place_min), std::abs(place_max)); }
   };
   std::vector<Bearing> bearings{};
   std::vector<Mesh> meshes{};
@@ -33,9 +38,10 @@ struct SpaceResults {
 
 /// `cycles`: mesh cycles of the window. Empty without bearings.
 [[nodiscard]] SpaceResults space_results(const dynamics::SpaceMotion& motion, int cycles);
-/// Bearings that act with their tangents and deviate from their law by more than `accuracy`.
-[[nodiscard]] std::vector<Warning> bearing_warnings(const SpaceResults& results, double accuracy,
-                                                    const std::string& ring);
+/// Bearings that act with their tangents and deviate from their law by more than `accuracy`; faces of solid gears that
+/// tilt further than the results of their tables know.
+[[nodiscard]] std::vector<Warning> space_result_warnings(const SpaceResults& results, double accuracy,
+                                                         const std::string& ring);
 /// Members bearings_in_space and places_of_mesh_forces; none where there are no results.
 void add_json(Json& json, const SpaceResults& results);
 /// `of`: " of 'held'", or nothing.

@@ -30,16 +30,16 @@ Declarations<Section> declare_list(const char* path, const char* meaning, std::v
       [list](Scene& s, std::size_t n) { (s.own<SpaceInput>().*list).resize(n); });
 }
 
-bool has_carrier(const SpaceSystem& system) { return system.frames == SpaceSystem::Frames::housing_and_carrier; }
+bool has_carrier(const KindInSpace& system) { return system.frames == KindInSpace::Frames::housing_and_carrier; }
 
-std::vector<Choice<Body>> bodies(const SpaceSystem& system) {
+std::vector<Choice<Body>> bodies(const KindInSpace& system) {
   std::vector<Choice<Body>> list;
   for (const auto& b : system.bodies) list.push_back({b.name, b.body});
   return list;
 }
 
 template <class Section>
-void declare_body(Declarations<Section>& t, const SpaceSystem& of, const char* meaning) {
+void declare_body(Declarations<Section>& t, const KindInSpace& of, const char* meaning) {
   t.choice("body", &Section::body, bodies(of), meaning).required();
   if (!has_carrier(of)) return;
   t.key("planet", &Section::planet, "Number of the planet, from 1 on.")
@@ -48,14 +48,7 @@ void declare_body(Declarations<Section>& t, const SpaceSystem& of, const char* m
       .absent("every planet");
 }
 
-template <class Section>
-void declare_frame(Declarations<Section>& t, const SpaceSystem& of, const char* meaning) {
-  if (!has_carrier(of)) return;
-  t.choice("frame", &Section::frame, {{"housing", StageFrame::housing}, {"carrier", StageFrame::carrier}}, meaning)
-      .fallback("housing", "it stands still while the carrier turns");
-}
-
-Table bearing_table(const SpaceSystem& of) {
+Table bearing_table(const KindInSpace& of) {
   auto bearing =
       declare_list("bearing",
                    "A bearing, coupling or mount in its place on the axis. A body that has any is held by these "
@@ -203,19 +196,20 @@ Table bearing_table(const SpaceSystem& of) {
       .from(-1e15, 1e15)
       .longest(25)
       .absent("the single stiffnesses");
-  declare_frame(bearing, of, "Frame in which x and y point; of planets always their own.");
   return bearing.done();
 }
 
-Table load_table(const SpaceSystem& of) {
+Table load_table(const KindInSpace& of) {
   auto load = declare_list("load", "A force and a moment on a body from without, beside the torque of [stage].",
                            &SpaceInput::loads);
   load.on_request();
   load.key("name", &LoadInput::name, "Name in results.").required();
   declare_body(load, of, "The body on which it acts.");
-  declare_frame(load, of,
+  if (has_carrier(of))
+    load.choice("frame", &LoadInput::frame, {{"housing", StageFrame::housing}, {"carrier", StageFrame::carrier}},
                 "Frame in which it is given: x towards planet 1, z along the axis. housing: as the carrier stands at "
-                "time 0.");
+                "time 0.")
+        .fallback("housing", "it stands still while the carrier turns");
   load.key("at_mm", &LoadInput::point,
            "Point at which the force acts, x, y, z from the middle of the stage, or of the planet or gear.")
       .from(-furthest_mm, furthest_mm)
@@ -233,7 +227,7 @@ Table load_table(const SpaceSystem& of) {
   return load.done();
 }
 
-Table gravity_table(const SpaceSystem& of) {
+Table gravity_table(const KindInSpace& of) {
   Declarations<GravityInput> gravity("gravity", "Weight of all bodies.", [](Scene& s, std::size_t) -> GravityInput& {
     auto& g = s.own<SpaceInput>().gravity;
     return g ? *g : g.emplace();
@@ -274,7 +268,7 @@ Table bearing_laws_key() {
   return lumped.done();
 }
 
-Table tilt_inertia_table(const SpaceSystem& of) {
+Table tilt_inertia_table(const KindInSpace& of) {
   Declarations<TiltInertiaInput> tilting(
       "tilt_inertia", "Moments of inertia about an axis across the body's own, through the middle of the face.",
       [](Scene& s, std::size_t) -> TiltInertiaInput& { return s.own<SpaceInput>().tilt_inertia; });
@@ -334,6 +328,10 @@ class SpaceChecks : KeyChecks {
         problem("bearing.on", i, "planets stand on the carrier: use \"carrier\", or leave it out");
       else if (*b.on == b.body)
         problem("bearing.on", i, "a body cannot stand on itself; use another body, or leave it out");
+      else if ((*b.on == Body::sun || *b.on == Body::ring) && b.has_directions())
+        problem("bearing.on", i,
+                "would turn x and y of the bearing with a body that has no frame; use bearing.radial_N_per_m, which is "
+                "the same in all directions");
     }
     if (b.tilt_clearance > 0 && (b.tilt == rigid || b.tilt == 0) && usable("bearing.tilt_clearance_deg", i) &&
         usable("bearing.tilt_Nm_per_rad", i))
@@ -386,7 +384,7 @@ class SpaceChecks : KeyChecks {
       problem("bearing.contact_angle_deg", i, "needs the place of the contacts; give bearing.pitch_diameter_mm");
     else if (usable(count, i) && sized && (!b.balls || b.pitch_diameter))
       try {
-        (void)dynamics::law_of(rolling_row(b), dynamics::Freedom::space);
+        (void)dynamics::law_of(rolling_row(b), dynamics::Motions::in_space);
       } catch (const InputError& error) {
         problem(count, i, error.what());
       }
@@ -402,7 +400,11 @@ class SpaceChecks : KeyChecks {
       if (!list->empty() && list->size() != 3 && usable(key, i))
         problem(key, i, fmt::format("needs three values, x, y and z, not {}", list->size()));
     if (l.moment.size() == 3 && l.moment[2] != 0 && usable("load.moment_Nm", i))
-      problem("load.moment_Nm", i, "has a part about z: that is a torque, which [stage] gives; use 0");
+      problem("load.moment_Nm", i,
+              l.body == Body::planet
+                  ? "has a part about z, which is a torque; use 0 there, and load.force_N at a point "
+                    "beside the middle of the planet (load.at_mm)"
+                  : "has a part about z: that is a torque, which [stage] gives; use 0");
     if (l.force.size() == 3 && l.point.size() == 3 && l.body != Body::planet && usable("load.force_N", i) &&
         usable("load.at_mm", i) && twists(l.point, l.force))
       problem("load.at_mm", i,
@@ -417,7 +419,7 @@ class SpaceChecks : KeyChecks {
 
 }  // namespace
 
-std::vector<Table> space_tables(const SpaceSystem& of) {
+std::vector<Table> space_tables(const KindInSpace& of) {
   return {bearing_table(of), load_table(of), gravity_table(of), tilt_inertia_table(of), bearing_laws_key()};
 }
 

@@ -11,7 +11,7 @@
 namespace annulus::app {
 
 /// What a kind of gear system has in space.
-struct SpaceSystem {
+struct KindInSpace {
   struct OfBody {
     const char* name;
     dynamics::StageBody::Kind body;
@@ -25,7 +25,7 @@ struct SpaceSystem {
 };
 
 /// [[bearing]], [[load]], [gravity], [tilt_inertia], and a key of [dynamics] at the end.
-[[nodiscard]] std::vector<Table> space_tables(const SpaceSystem& system);
+[[nodiscard]] std::vector<Table> space_tables(const KindInSpace& system);
 /// Names, lengths of lists, and bodies that fit each other.
 void check_space(Scene& scene, std::vector<Problem>& problems);
 

@@ -42,13 +42,13 @@ struct PairMechanism {
   std::vector<MadeBearing> bearings;
 };
 
-PairMechanism assemble(const SpatialPair& pair, Freedom freedom) {
-  const bool in_space = freedom == Freedom::space;
+PairMechanism assemble(const SpatialPair& pair, Motions motions) {
+  const bool in_space = motions == Motions::in_space;
   PairMechanism result{Mechanism(pair.working_radius_pinion), {}};
   auto& m = result.mechanism;
   m.add_body({"pinion", Vector3d::Zero(), in_space});
   m.add_body({"wheel", Vector3d::Zero(), in_space});
-  BearingAssembly bearings(m, freedom);
+  BearingAssembly bearings(m, motions);
   for (const auto& b : pair.bearings) {
     check_body(b.body, fmt::format("bearing '{}'", b.name));
     if (b.on.kind != Kind::housing)
@@ -124,7 +124,7 @@ std::vector<std::string> SpatialPair::reasons_for_space() const {
 
 PairSpace pair_about_equilibrium(const SpatialPair& pair, double tilt_inertia_pinion, double tilt_inertia_wheel) {
   const bool in_space = !pair.reasons_for_space().empty();
-  const auto made = assemble(pair, in_space ? Freedom::space : Freedom::plane);
+  const auto made = assemble(pair, in_space ? Motions::in_space : Motions::in_plane);
   const auto at = made.mechanism.solve();
   const auto axes = along_line_of_action(pair);
   PairSpace space;
@@ -138,7 +138,7 @@ PairSpace pair_about_equilibrium(const SpatialPair& pair, double tilt_inertia_pi
     auto found = linearised(bearing, at).bearing;
     turn(found, axes);
     if (!in_space) flatten(found);
-    give_law(found, pair.bearings[space.bearings.size()], pair.working_angle);
+    give_law(found, bearing, pair.working_angle);
     space.bearings.push_back(std::move(found));
   }
   if (!in_space)

@@ -260,6 +260,21 @@ void spread_meshes(std::vector<MeshElement>& meshes, LumpedSystemBuilder& builde
   for (auto& tilt : tilts) meshes.push_back(std::move(tilt));
 }
 
+/// The whole laws of bearings and of what they stand on.
+void add_laws(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const StageForms& bodies) {
+  const auto& space = *stage.space;
+  const double length = stage.carrier.radius;
+  for (const auto& bearing : space.bearings)
+    add_bearing_law(builder, bearing, bearing_motion(stage, bodies, bearing), length);
+  for (const auto& coupling : space.couplings) {
+    std::vector<LinearForm> motion;
+    for (const std::size_t i : coupling.bearings)
+      for (auto& form : bearing_motion(stage, bodies, space.bearings[i])) motion.push_back(std::move(form));
+    if (coupling.turned) motion.push_back(bodies.ring.u);
+    add_coupling_law(builder, coupling, space, motion, length);
+  }
+}
+
 }  // namespace
 
 LumpedSystem assemble(const PlanetaryStage& stage) {
@@ -312,9 +327,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   for (auto& element : ring_meshes) meshes.push_back(std::move(element));
   if (stage.space) spread_meshes(meshes, builder, stage, bodies);
   for (auto& element : meshes) builder.add_mesh(std::move(element));
-  if (stage.space && stage.space->laws == BearingLaws::whole)
-    for (const auto& bearing : stage.space->bearings)
-      add_bearing_law(builder, bearing, bearing_motion(stage, bodies, bearing), stage.carrier.radius);
+  if (stage.space && stage.space->laws == BearingLaws::whole) add_laws(builder, stage, bodies);
   add_couplings(builder, stage, ring_modes);
   for (int n = 0; n < stage.planets(); ++n)
     if (!stage.space && stage.planet_bearing(n).play > 0) add_bearing_with_play(builder, stage, bodies, n);

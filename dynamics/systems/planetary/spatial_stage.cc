@@ -42,7 +42,7 @@ class Assembly {
         time_(t),
         space_(!stage.reasons_for_space().empty()),
         result_{.mechanism = Mechanism(stage.plane.carrier.radius)},
-        bearings_(result_.mechanism, space_ ? Freedom::space : Freedom::plane) {}
+        bearings_(result_.mechanism, space_ ? Motions::in_space : Motions::in_plane) {}
 
   StageMechanism build() && {
     for (const auto kind : central_bodies) mechanism().add_body({name_of_body({kind}), Vector3d::Zero(), space_});
@@ -122,7 +122,7 @@ class Assembly {
       b.frame = StageFrame::planet;
       b.name = name_of_body(b.body);
       const auto place = place_of(b);
-      auto& pin = made.emplace_back(MadeBearing{b.name, b.body, b.on, b.frame, 0, place.axes});
+      auto& pin = made.emplace_back(MadeBearing{b, place.axes});
       for (int i = 0; i < each; ++i) {
         measures.row(each * n + i) = bearings_.measure(b, place, i);
         pin.coordinate.at(static_cast<std::size_t>(i)) = each * n + i;

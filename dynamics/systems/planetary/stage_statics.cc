@@ -51,9 +51,9 @@ StaticBearing bearing_in(const StageMechanism& made, const MadeBearing& bearing,
     else
       result.moment[static_cast<Eigen::Index>(i) - 3] = value;
   }
-  if (bearing.row)
+  if (bearing.rolling)
     result.largest_element =
-        bearing.row->largest_element_load(at.deflection[static_cast<std::size_t>(bearing.element.front())]);
+        bearing.rolling->largest_element_load(at.deflection[static_cast<std::size_t>(bearing.element.front())]);
   return result;
 }
 

@@ -9,6 +9,7 @@
 
 #include "dynamics/spatial/bearing_laws.h"
 #include "dynamics/spatial/linearised.h"
+#include "dynamics/spatial/series_law.h"
 
 namespace annulus::dynamics {
 
@@ -60,10 +61,9 @@ struct Series {
 Series in_series(const Eigen::MatrixXd& springs, const Eigen::VectorXd& preload, const Eigen::MatrixXd& held,
                  const Eigen::MatrixXd& below) {
   const Eigen::Index size = below.rows();
-  const Eigen::MatrixXd free = held.rows() == 0 ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size))
-                                                : Eigen::MatrixXd(held.fullPivLu().kernel());
+  const auto free = free_coordinates(held);
   Series result{below, Eigen::VectorXd::Zero(size)};
-  if (free.cwiseAbs().maxCoeff() == 0) return result;  // the kernel of what holds all is a column of zeros
+  if (free.cols() == 0) return result;
   const Eigen::MatrixXd inner = free.transpose() * (springs + below) * free;
   const Eigen::MatrixXd share = below * free * inner.inverse() * free.transpose();
   result.stiffness -= share * below;
@@ -96,22 +96,35 @@ bool couples(const Eigen::MatrixXd& between, const Eigen::MatrixXd& whole) {
   return (inverse.asDiagonal() * between * inverse.asDiagonal()).cwiseAbs().maxCoeff() > rounding;
 }
 
+bool any_nonlinear(const BearingsInSeries& series) {
+  return std::any_of(series.bearings.begin(), series.bearings.end(),
+                     [](const auto& seated) { return is_nonlinear(seated.bearing); });
+}
+
+/// The bearings of a planet, made and for small motions.
+struct PlanetBearings {
+  std::vector<StageBearing> made;
+  std::vector<LinearBearing> linear;
+};
+
 /// Puts the bearings of planets on their pins in series with these: one in the middle of every planet. `pins`:
 /// SpatialStage::pins.
-void put_on_pins(StageSpace& space, const std::vector<std::vector<LinearBearing>>& bearings,
-                 const Eigen::MatrixXd& pins) {
+void put_on_pins(StageSpace& space, const std::vector<PlanetBearings>& bearings, const Eigen::MatrixXd& pins,
+                 Motions motions) {
   const Eigen::Index size = pins.rows();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size), held(0, size);
   Eigen::VectorXd preload = Eigen::VectorXd::Zero(size);
+  BearingsInSeries law{motions, pins, {}};
   for (std::size_t n = 0; n < bearings.size(); ++n) {
     const auto first = 5 * static_cast<Eigen::Index>(n);
-    for (const auto& b : bearings[n]) {
+    for (const auto& b : bearings[n].linear) {
       const auto move = to_place(b.place);
       sum.block<5, 5>(first, first) += move.transpose() * b.stiffness * move;
       preload.segment<5>(first) += move.transpose() * b.preload;
       for (Eigen::Index i = 0; i < 5; ++i)
         if (b.rigid.at(static_cast<std::size_t>(i))) add_row(held, first, move.row(i));
     }
+    for (const auto& b : bearings[n].made) law.bearings.push_back({b, static_cast<int>(first), b.place});
   }
   auto all = in_series(sum, preload, held, pins);
   LinearCoupling coupling{"planet_bearing", {}, all.stiffness};
@@ -126,7 +139,11 @@ void put_on_pins(StageSpace& space, const std::vector<std::vector<LinearBearing>
     coupling.bearings.push_back(space.bearings.size());
     space.bearings.push_back(std::move(result));
   }
-  if (couples(coupling.stiffness, pins)) space.couplings.push_back(std::move(coupling));
+  if (any_nonlinear(law)) {
+    law.held = held;
+    coupling.law = std::move(law);
+  }
+  if (coupling.law || couples(coupling.stiffness, pins)) space.couplings.push_back(std::move(coupling));
 }
 
 /// Displacement and tilt of a central body in a place on the axis.
@@ -138,14 +155,16 @@ Vector motion_at(const SpatialStage& stage, const Mechanism::Equilibrium& at, co
 /// Puts the bearings of the housing on what it gives way, in series: their mean over a turn where the carrier turns
 /// past it. `found`: of HousingStructure::bearings, in the state `at`.
 void put_in_housing(StageSpace& space, const SpatialStage& stage, const std::vector<Linearised>& found,
-                    const StageMechanism& made, const Mechanism::Equilibrium& at) {
+                    const StageMechanism& made, const Mechanism::Equilibrium& at, Motions motions) {
   const auto& housing = *stage.housing;
   const Eigen::Index size = housing.stiffness.rows(), last = size - 1;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size), held(0, size), below = housing.stiffness;
   Eigen::VectorXd preload = Eigen::VectorXd::Zero(size), motion = Eigen::VectorXd::Zero(size);
+  BearingsInSeries law{motions, {}, {}};
   for (std::size_t n = 0; n < found.size(); ++n) {
     const auto first = 5 * static_cast<Eigen::Index>(n);
     const auto& b = found[n].bearing;
+    law.bearings.push_back({made.bearings[housing.bearings[n]], static_cast<int>(first), 0});
     sum.block<5, 5>(first, first) = b.stiffness;
     preload.segment<5>(first) = b.preload;
     motion.segment<5>(first) = motion_at(stage, at, b.body, b.place);
@@ -157,10 +176,12 @@ void put_in_housing(StageSpace& space, const SpatialStage& stage, const std::vec
     below.row(last) /= radius;
     below.col(last) /= radius;
     motion[last] = radius * at.motion[6 * body_number(stage, {Kind::ring}) + 5];
-    if (made.ring_support >= 0)
+    if (made.ring_support >= 0) {
       sum(last, last) = stage.plane.ring.torsional_support;
-    else
+      law.springs.push_back({static_cast<int>(last), stage.plane.ring.torsional_support});
+    } else {
       add_row(held, last, Eigen::RowVectorXd::Ones(1));
+    }
   }
   auto all = in_series(sum, preload, held, below);
   const bool turns = stage.plane.carrier_speed != 0;
@@ -182,7 +203,13 @@ void put_in_housing(StageSpace& space, const SpatialStage& stage, const std::vec
     coupling.bearings.push_back(space.bearings.size());
     space.bearings.push_back(std::move(result));
   }
-  if (coupling.turned || couples(coupling.stiffness, housing.stiffness)) space.couplings.push_back(std::move(coupling));
+  if (!turns && any_nonlinear(law)) {
+    law.below = below;
+    law.held = held;
+    coupling.law = std::move(law);
+  }
+  if (coupling.law || coupling.turned || couples(coupling.stiffness, housing.stiffness))
+    space.couplings.push_back(std::move(coupling));
 }
 
 /// The loads under which planets and bearings on the carrier are linearised. Loads that stand in the housing have their
@@ -274,7 +301,7 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
   space.ring_face.middle = stage.ring_face.middle;
   space.tilt_inertia = inertia;
   const bool in_space = !stage.reasons_for_space().empty();
-  std::vector<std::vector<LinearBearing>> of_planets(static_cast<std::size_t>(stage.planets()));
+  std::vector<PlanetBearings> of_planets(static_cast<std::size_t>(stage.planets()));
   const auto housed = stage.housing ? stage.housing->bearings : std::vector<std::size_t>{};
   std::vector<Linearised> in_housing(housed.size());
   for (std::size_t i = 0; i < made.bearings.size(); ++i) {
@@ -294,14 +321,17 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
     if (on_housing && directed) found.stiffness = mean_over_turn(found.stiffness);
     const bool seated = stage.pins && bearing.body.kind == Kind::planet && bearing.on.kind == Kind::carrier;
     if (seated) {
-      of_planets[static_cast<std::size_t>(bearing.body.planet)].push_back(std::move(found));
+      auto& own = of_planets[static_cast<std::size_t>(bearing.body.planet)];
+      own.made.push_back(bearing);
+      own.linear.push_back(std::move(found));
       continue;
     }
-    give_law(found, bearing.bearing);
+    give_law(found, bearing);
     space.bearings.push_back(std::move(found));
   }
-  if (stage.pins) put_on_pins(space, of_planets, *stage.pins);
-  if (stage.housing) put_in_housing(space, stage, in_housing, made_under_all, under_all);
+  const auto motions = in_space ? Motions::in_space : Motions::in_plane;
+  if (stage.pins) put_on_pins(space, of_planets, *stage.pins, motions);
+  if (stage.housing) put_in_housing(space, stage, in_housing, made_under_all, under_all, motions);
   if (!in_space) {
     for (auto& b : space.bearings) flatten(b);
     for (auto& coupling : space.couplings)

@@ -344,8 +344,8 @@ BOOST_AUTO_TEST_CASE(misaligned_sun_mesh) {
     record.close("force of the whole face", "N", force, load, 1e-5, "digits of the file");
     const double tilting = 12 * std::abs(moment) / (misalignment * width * width), factor = top * width / load;
     const auto& pairs = touching.at(phase);
-    const bool all =
-        std::all_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.second.size() == whole.size(); });
+    const bool all = std::all_of(pairs.begin(), pairs.end(),
+                                 [pieces = whole.size()](const auto& pair) { return pair.second.size() == pieces; });
     if (all && pairs.size() == touching_aligned.at(phase).size()) {  // else a part of the face has another pair
       record.close("K_Hbeta of straight line loads with this moment", "", factor, factor_of(tilting),
                    (1 - 1 / factor_of(tilting)) * 2 / static_cast<double>(whole.size()),
