@@ -167,7 +167,7 @@ BOOST_AUTO_TEST_CASE(clearance_in_a_housing_that_stands) {
   }
   auto moving = lumped(s);
   moving.space->laws = BearingLaws::whole;
-  for (const double share : {1.0, 0.3}) {
+  for (const double share : {1.0, 1.4}) {  // all faces carry from end to end
     s.plane.sun_torque *= share;
     moving.sun_torque = s.plane.sun_torque;
     const auto expected = statics(s).positions.front();
