@@ -24,9 +24,9 @@ std::optional<RollingRow> mirrored(std::optional<RollingRow> row) {
 
 /// A bearing and its mirror image about the middle of the face do the same.
 bool mirrors(const StageBearing& a, const StageBearing& b) {
-  return a.body == b.body && a.on == b.on && a.frame == b.frame && a.place == -b.place && a.x == b.x && a.y == b.y &&
-         a.play == b.play && a.load_zone == b.load_zone && a.row == mirrored(b.row) && a.distance == b.distance &&
-         a.force == b.force && !a.matrix && !b.matrix;
+  return a.body == b.body && a.on == b.on && a.place == -b.place && a.x == b.x && a.y == b.y && a.play == b.play &&
+         a.load_zone == b.load_zone && a.row == mirrored(b.row) && a.distance == b.distance && a.force == b.force &&
+         !a.matrix && !b.matrix;
 }
 
 }  // namespace
@@ -66,6 +66,12 @@ void add_reasons(std::vector<std::string>& reasons, const std::vector<StageBeari
       reasons.push_back(fmt::format("bearing '{}' of the {} has no counterpart on the other side of the face", b.name,
                                     name_of_body(b.body)));
   }
+}
+
+StageFrame StageBearing::frame() const {
+  using Kind = StageBody::Kind;
+  if (body.kind == Kind::planet || body.kind == Kind::pin) return StageFrame::planet;
+  return on.kind == Kind::carrier ? StageFrame::carrier : StageFrame::housing;
 }
 
 std::vector<BearingPart> parts_of(const StageBearing& b, Motions motions) {

@@ -19,7 +19,6 @@ namespace annulus::dynamics {
 struct StageBearing {
   std::string name;
   StageBody body, on;
-  StageFrame frame = StageFrame::housing;
   double place = 0;                         ///< m, z
   double x = 0, y = 0;                      ///< N/m; `rigid`: does not move
   double axial = 0;                         ///< N/m
@@ -31,6 +30,8 @@ struct StageBearing {
   std::vector<double> distance{}, force{};  ///< m, N: radial, over each other, instead of x, y and play (TableLaw)
   std::optional<RollingRow> row{};          ///< instead of x, y, tilt and play, with a contact angle of axial too
   double seat = rigid;                      ///< N/m, in series with a bearing that has play and a load zone
+  /// In which x and y point: that of what it stands on; planets and their pins have their own.
+  [[nodiscard]] StageFrame frame() const;
   [[nodiscard]] bool holds_radially() const { return matrix || row || !distance.empty() || x > 0 || y > 0; }
   std::optional<Eigen::Matrix<double, 5, 5>> matrix{};  ///< instead of the stiffnesses; SI
 };

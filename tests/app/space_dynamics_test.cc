@@ -122,6 +122,18 @@ BOOST_AUTO_TEST_CASE(what_is_assumed_is_said_and_bearings_can_be_studied) {
   BOOST_TEST(warns(summary, "bearing_laws"));  // the carrier wanders in its clearance
   BOOST_TEST(!warns(summary, "supports_left_out"));
   BOOST_TEST(!warns(summary, "mass_in_middle"));  // planets have their weight there
+  // A bearing in one direction alone has its mean over a turn.
+  const auto checked = [&](const std::string& text) {
+    write_file(folder.path() / "checked.toml", text);
+    const auto outcome = test::run_program(folder.path(), "check checked.toml --json");
+    BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+    return Json::parse(outcome.out);
+  };
+  const auto held = moving_stage(bearings());
+  BOOST_TEST(!warns(checked(held), "bearings_averaged"));
+  BOOST_TEST(warns(checked(held + bearing("guide", "carrier", "x_N_per_m = 1e9\n")), "bearings_averaged"));
+  BOOST_TEST(
+      !warns(checked(held + bearing("guide", "sun", "on = \"carrier\"\nx_N_per_m = 1e9\n")), "bearings_averaged"));
   // Without an axial bearing the carrier screws itself along the axis.
   const auto loose = test::replaced(moving_stage(bearings()), "axial_N_per_m = 1e9\n[[bearing]]\nname = \"downwind\"",
                                     "[[bearing]]\nname = \"downwind\"");

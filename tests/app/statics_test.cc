@@ -168,6 +168,11 @@ BOOST_AUTO_TEST_CASE(files_and_warnings) {
     BOOST_TEST(table(folder, file).rows.size() > 20u, file);
   BOOST_TEST(read_file(folder.path() / "out/statics.html").find("Face load factor of the sun meshes") !=
              std::string::npos);
+  const auto short_table =
+      solved(folder, helical_stage() + in_space() +
+                         bearing("guide", "sun", "radial_displacement_um = [0, 1]\nradial_force_N = [0, 1]\n"));
+  BOOST_TEST(short_table.at("warnings").dump().find("more than the 1 N at which its table ends") != std::string::npos);
+  BOOST_TEST(json.at("warnings").dump().find("table ends") == std::string::npos);
   // Nothing holds the sun along the axis: its helix would screw it out.
   const auto loose = test::replaced(helical_stage() + in_space(), "axial_N_per_m = 3e8\n", "");
   write_file(folder.path() / "loose.toml", loose);
@@ -370,6 +375,8 @@ BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
   };
   expect_refusal(bearing("a", "planet", "on = \"housing\"\nradial_N_per_m = 1e9\n"), "planets stand on the carrier");
   expect_refusal(bearing("a", "carrier", "on = \"carrier\"\nradial_N_per_m = 1e9\n"), "a body cannot stand on itself");
+  expect_refusal(bearing("a", "carrier", "on = \"ring\"\nx_N_per_m = 1e9\n"), "the same in all directions");
+  expect_refusal(bearing("a", "carrier", "radial_N_per_m = 1e9\nframe = \"carrier\"\n"), "bearing.frame");
   expect_refusal(bearing("a", "carrier", "at_mm = 3\n"), "holds nothing");
   expect_refusal(bearing("a", "carrier", "planet = 1\nradial_N_per_m = 1e9\n"), "other bodies have no numbers");
   expect_refusal(bearing("a", "planet", "planet = 4\nradial_N_per_m = 1e9\n"), "there are 3");
@@ -408,6 +415,8 @@ BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused) {
   expect_refusal(bearing("a", "carrier", "stiffness_5x5_N_m_rad = " + rows + "]\n"), "not symmetric");
   expect_refusal("[[load]]\nname = \"a\"\nbody = \"carrier\"\nforce_N = [1, 2]\n", "needs three values");
   expect_refusal("[[load]]\nname = \"a\"\nbody = \"carrier\"\nmoment_Nm = [0, 0, 5]\n", "about z");
+  expect_refusal("[[load]]\nname = \"a\"\nbody = \"planet\"\nmoment_Nm = [0, 0, 5]\n",
+                 "beside the middle of the planet");
   expect_refusal("[[load]]\nname = \"a\"\nbody = \"carrier\"\n", "force_N");
   const auto weightless =
       test::scene_refusal(test::replaced(helical_stage(), "mass_kg = 180\n", "") + "[gravity]\ndirection_deg = 270\n");

@@ -5,6 +5,7 @@
 #include "app/plan/plan.h"
 #include "app/plan/warning.h"
 #include "app/scene/scene.h"
+#include "app/systems/shared/space_results.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {
@@ -65,6 +66,22 @@ BOOST_AUTO_TEST_CASE(tips_near_roots_are_reported) {
       severity_of(test::replaced(scene, "tip_diameter_mm = 282\n",
                                  "tip_diameter_mm = 282\nroot_diameter_mm = 296.4\nroot_fillet_factor = 0.05\n"),
                   "tip_clearance") == Severity::warning);
+}
+
+BOOST_AUTO_TEST_CASE(faces_that_tilt_further_than_their_tables_know) {
+  const auto warnings = [](double place, bool solid) {
+    app::SpaceResults results;
+    results.meshes = {{"sun_planet1", 0, -place / 2, place, 0.1, solid}};
+    return app::space_result_warnings(results, 0.02, "held", "annulus statics has it");
+  };
+  BOOST_TEST(warnings(0.0003, true).empty());  // 1.8 % more load at an end
+  BOOST_TEST(warnings(0.01, false).empty());
+  BOOST_TEST(warnings(not_known, true).empty());
+  const auto text = [&](double place) { return warnings(place, true).at(0).text; };
+  BOOST_TEST(text(0.005).find("up to 5 mm from the middle of its face, which is 100 mm wide") != std::string::npos);
+  BOOST_TEST(text(0.005).find("do not tilt; annulus statics has it") != std::string::npos);
+  BOOST_TEST(text(0.005).find("Error bars") == std::string::npos);
+  BOOST_TEST(text(0.01).find("Error bars contain the change of the face up to 8.3 mm alone") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(severe_ones_come_first) {

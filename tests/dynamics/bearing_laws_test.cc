@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/units.h"
+#include "dynamics/modes/modal_energy.h"
 #include "dynamics/spatial/bearing_laws.h"
 #include "dynamics/steady_state/periodic_response.h"
 #include "tests/verification_record.h"
@@ -144,6 +145,11 @@ BOOST_AUTO_TEST_CASE(whirl_in_a_clearance) {
     builder.add_harmonic_load(motion[1], speed, 0, force);
     const auto system = builder.build();
     BOOST_TEST(system.meshes().size() == 2U);  // along the axis and about it there is nothing
+    // Modes have their energy in the springs.
+    const auto tangents = mean_stiffnesses(system);
+    const auto energy = modal_energy(system, tangents, modes(system, tangents));
+    BOOST_TEST((energy.strain.colwise().sum().array() - 1).abs().maxCoeff() <= 1e-12);
+    for (const auto& element : energy.elements) BOOST_TEST(element.find("law") == std::string::npos);
     PeriodicOptions options;
     options.tolerance = 1e-10;
     const auto found = periodic_response(system, 2 * std::numbers::pi / speed, 1, options);

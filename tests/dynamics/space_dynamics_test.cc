@@ -115,7 +115,7 @@ class RigidBodies {
     double sum = 0;
     for (const auto& b : stage_.bearings) {
       const int body = body_number(stage_, b.body), on = body_number(stage_, b.on);
-      const auto axes = frame_axes(stage_, b.frame, b.body, 0);
+      const auto axes = frame_axes(stage_, b.frame(), b.body, 0);
       const Vector3d point = centre(body) + b.place * Vector3d::UnitZ();
       const Vector3d d = axes.transpose() * (moved(q, body, point) - moved(q, on, point));
       const Vector3d tilt = axes.transpose() * (turn(q, body) - turn(q, on));

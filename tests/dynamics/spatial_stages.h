@@ -32,7 +32,6 @@ inline StageBearing bearing(const std::string& name, StageBody body, StageBody o
   b.name = name;
   b.body = body;
   b.on = on;
-  b.frame = body.kind == StageBody::Kind::planet ? StageFrame::planet : StageFrame::housing;
   b.place = place;
   b.x = b.y = radial;
   b.axial = axial;

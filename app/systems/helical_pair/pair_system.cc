@@ -109,7 +109,7 @@ class PairSystem final : public GearSystem {
   [[nodiscard]] std::vector<Warning> response_warnings(const SystemRun& run, std::size_t /*variant*/) const override {
     if (!pair_in_space(scene())) return {};
     auto list = face_warnings({{"mesh", &run.tables.front()}}, scene().accuracy, "");
-    const auto more = space_result_warnings(PairRunResult(run).response->space, scene().accuracy, "");
+    const auto more = space_result_warnings(PairRunResult(run).response->space, scene().accuracy, "", "");
     list.insert(list.end(), more.begin(), more.end());
     return list;
   }

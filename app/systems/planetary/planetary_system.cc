@@ -156,7 +156,8 @@ class PlanetarySystem final : public GearSystem {
       auto more = face_warnings({{"sun mesh", &run.tables.front()}, {"ring mesh", &run.tables.at(ring + 1)}},
                                 scene().accuracy, name);
       std::move(more.begin(), more.end(), std::back_inserter(list));
-      auto of_bearings = space_result_warnings(response.stage.motion.space, scene().accuracy, name);
+      auto of_bearings = space_result_warnings(response.stage.motion.space, scene().accuracy, name,
+                                               "annulus statics has K_Hβ of gears that tilt");
       std::move(of_bearings.begin(), of_bearings.end(), std::back_inserter(list));
     }
     if (response.tolerances) {

@@ -94,10 +94,10 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
     return std::find(points.begin(), points.end(), column_of(b.name)) != points.end();
   };
   for (const auto& b : space.bearings) {
-    if (turns && in_housing(b) && dynamics::is_nonlinear(stage_bearing(b, {b.body}, b.name)))
-      past_carrier.push_back("'" + b.name + "'");
-    const bool on_housing = stage_bearing(b, {b.body}, b.name).on.kind == dynamics::StageBody::Kind::housing;
-    if ((on_housing && b.has_directions()) || in_housing(b)) directed.push_back("'" + b.name + "'");
+    const auto made = stage_bearing(b, {b.body}, b.name);
+    if (turns && in_housing(b) && dynamics::is_nonlinear(made)) past_carrier.push_back("'" + b.name + "'");
+    const bool stands = made.frame() == dynamics::StageFrame::housing;
+    if ((stands && b.has_directions()) || in_housing(b)) directed.push_back("'" + b.name + "'");
   }
   if (!past_carrier.empty())
     list.push_back(

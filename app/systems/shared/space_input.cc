@@ -37,13 +37,9 @@ dynamics::StageBearing stage_bearing(const BearingInput& input, const dynamics::
   b.name = std::move(name);
   b.body = body;
   b.on = {input.on.value_or(planet ? Body::carrier : Body::housing)};
-  // x and y point in the frame of what it stands on.
-  b.frame = planet                       ? dynamics::StageFrame::planet
-            : b.on.kind == Body::carrier ? dynamics::StageFrame::carrier
-                                         : dynamics::StageFrame::housing;
   b.place = input.place;
-  b.x = input.x.value_or(input.radial.value_or(0));
-  b.y = input.y.value_or(input.radial.value_or(0));
+  b.x = input.along_x();
+  b.y = input.along_y();
   b.axial = input.axial;
   b.tilt = input.tilt;
   b.play = input.clearance / 2;
@@ -76,7 +72,7 @@ bool SpaceInput::has_bearing(Body body) const {
 
 bool SpaceInput::has_radial_bearing(Body body) const {
   return std::any_of(bearings.begin(), bearings.end(),
-                     [&](const auto& b) { return b.body == body && b.holds_radially(); });
+                     [&](const auto& b) { return b.body == body && !b.planet && b.holds_radially(); });
 }
 
 }  // namespace annulus::app

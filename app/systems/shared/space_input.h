@@ -30,7 +30,9 @@ struct BearingInput {
 
   [[nodiscard]] bool rolls() const { return rollers || balls; }
   /// Does it hold differently along x and y?
-  [[nodiscard]] bool has_directions() const { return !matrix.empty() || (x && y && *x != *y); }
+  [[nodiscard]] bool has_directions() const { return !matrix.empty() || along_x() != along_y(); }
+  [[nodiscard]] double along_x() const { return x.value_or(radial.value_or(0)); }  ///< N/m
+  [[nodiscard]] double along_y() const { return y.value_or(radial.value_or(0)); }
   [[nodiscard]] bool holds_radially() const {
     return radial || x || y || rolls() || !displacement.empty() || !matrix.empty();
   }
@@ -75,6 +77,7 @@ struct SpaceInput {
 
   [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity; }
   [[nodiscard]] bool has_bearing(BearingInput::Body body) const;
+  /// Whether a body, or every planet by one table, has a bearing that holds it radially.
   [[nodiscard]] bool has_radial_bearing(BearingInput::Body body) const;
 };
 

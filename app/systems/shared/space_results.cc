@@ -78,20 +78,20 @@ SpaceResults space_results(const dynamics::SpaceMotion& found, int cycles) {
   return results;
 }
 
-std::vector<Warning> space_result_warnings(const SpaceResults& results, double accuracy, const std::string& ring) {
+std::vector<Warning> space_result_warnings(const SpaceResults& results, double accuracy, const std::string& ring,
+                                           const std::string& remedy) {
   std::vector<Warning> list;
-  if (const auto* mesh = most_tilted(results); mesh && end_load(*mesh) > 1 + accuracy)
-    list.push_back(
-        {"face_tilts", Severity::warning,
-         fmt::format("gears tilt: the force of mesh '{}' stands up to {:.2g} mm from the middle of its face, {:.4g} mm "
-                     "wide. Face load factors and root stresses of this run are those of gears that do not tilt; "
-                     "annulus statics has K_Hβ of those that do{}",
-                     mesh->name, mesh->furthest() / units::mm, mesh->face_width / units::mm,
-                     end_load(*mesh) > 1 + fem::reduced_face_tilt
-                         ? fmt::format(". Error bars contain the change of the face up to {:.2g} mm alone",
-                                       fem::reduced_face_tilt * mesh->face_width / 6 / units::mm)
-                         : ""),
-         ring});
+  if (const auto* mesh = most_tilted(results); mesh && end_load(*mesh) > 1 + accuracy) {
+    auto text = fmt::format(
+        "gears tilt: the force of mesh '{}' stands up to {:.2g} mm from the middle of its face, which is {:.4g} mm "
+        "wide. "
+        "Face load factors and root stresses of this run are those of gears that do not tilt{}",
+        mesh->name, mesh->furthest() / units::mm, mesh->face_width / units::mm, remedy.empty() ? "" : "; " + remedy);
+    if (end_load(*mesh) > 1 + fem::reduced_face_tilt)
+      text += fmt::format(". Error bars contain the change of the face up to {:.2g} mm alone",
+                          fem::reduced_face_tilt * mesh->face_width / 6 / units::mm);
+    list.push_back({"face_tilts", Severity::warning, std::move(text), ring});
+  }
   const auto worst = std::max_element(results.bearings.begin(), results.bearings.end(),
                                       [](const auto& a, const auto& b) { return a.law_deviation < b.law_deviation; });
   if (worst != results.bearings.end() && worst->law_deviation > accuracy)

@@ -39,9 +39,9 @@ struct SpaceResults {
 /// `cycles`: mesh cycles of the window. Empty without bearings.
 [[nodiscard]] SpaceResults space_results(const dynamics::SpaceMotion& motion, int cycles);
 /// Bearings that act with their tangents and deviate from their law by more than `accuracy`; faces of solid gears that
-/// tilt further than the results of their tables know.
+/// tilt further than the results of their tables know. `remedy`: where K_Hβ of gears that tilt is found, or nothing.
 [[nodiscard]] std::vector<Warning> space_result_warnings(const SpaceResults& results, double accuracy,
-                                                         const std::string& ring);
+                                                         const std::string& ring, const std::string& remedy);
 /// Members bearings_in_space and places_of_mesh_forces; none where there are no results.
 void add_json(Json& json, const SpaceResults& results);
 /// `of`: " of 'held'", or nothing.

@@ -81,9 +81,10 @@ Table bearing_table(const KindInSpace& of) {
       .refused_if(given("x_N_per_m") || given("y_N_per_m"), "the stiffness has a value for each direction")
       .absent("none");
   for (const auto& [name, member, meaning] :
-       {std::tuple{"x_N_per_m", &BearingInput::x,
-                   "Stiffness along x: towards planet 1 at time 0; of planets radially outwards; of a pair from the "
-                   "pinion to the wheel."},
+       {std::tuple{
+            "x_N_per_m", &BearingInput::x,
+            "Stiffness along x, which stands still on what the bearing stands on: towards planet 1 at time 0; of "
+            "planets radially outwards; of a pair from the pinion to the wheel."},
         {"y_N_per_m", &BearingInput::y, "Stiffness along y; of planets tangentially."}})
     stiffness(name, member, meaning)
         .refused_if(has_matrix, why_matrix)

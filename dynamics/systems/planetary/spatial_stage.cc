@@ -80,7 +80,7 @@ class Assembly {
   }
 
   [[nodiscard]] BearingPlace place_of(const StageBearing& b) const {
-    return {number(b.body), seat_of(b), centre_of(stage_, b.body), frame_axes(stage_, b.frame, b.body, time_)};
+    return {number(b.body), seat_of(b), centre_of(stage_, b.body), frame_axes(stage_, b.frame(), b.body, time_)};
   }
 
   void add_bearing(const StageBearing& b) { result_.bearings.push_back(bearings_.add(b, place_of(b))); }
@@ -95,7 +95,6 @@ class Assembly {
     if (body.kind == Kind::planet) {
       const auto bearing = stage_.plane.planet_bearing(body.planet);
       b.on = {Kind::carrier};
-      b.frame = StageFrame::planet;
       b.x = bearing.radial;
       b.y = bearing.tangential;
       b.play = bearing.play;
@@ -119,7 +118,6 @@ class Assembly {
       StageBearing b;
       b.body = {Kind::pin, n};
       b.on = {Kind::carrier};
-      b.frame = StageFrame::planet;
       b.name = name_of_body(b.body);
       const auto place = place_of(b);
       auto& pin = made.emplace_back(MadeBearing{b, place.axes});
@@ -355,7 +353,7 @@ bool SpatialStage::depends_on_carrier_angle() const {
   if (gravity.head<2>().any() && !weights.empty()) return true;
   if (housing) return true;
   for (const auto& b : bearings) {
-    if (b.frame != StageFrame::housing) continue;
+    if (b.frame() != StageFrame::housing) continue;
     if (b.matrix || b.row || b.x != b.y) return true;
   }
   const auto fixed = [](const CentralBody& body) { return body.errors.position.exists(); };

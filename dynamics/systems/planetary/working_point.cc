@@ -316,8 +316,7 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
     auto found = on_housing && stands ? under_standing_loads(linearised(made_under_all.bearings[i], under_all))
                                       : linearised(bearing, at).bearing;
     if (!given) found.name = bearing.body.kind == Kind::planet ? "bearing" : "support";
-    const bool directed = given && bearing.frame == StageFrame::housing &&
-                          (turning.bearings[i].matrix || turning.bearings[i].x != turning.bearings[i].y);
+    const bool directed = given && (turning.bearings[i].matrix || turning.bearings[i].x != turning.bearings[i].y);
     if (on_housing && directed) found.stiffness = mean_over_turn(found.stiffness);
     const bool seated = stage.pins && bearing.body.kind == Kind::planet && bearing.on.kind == Kind::carrier;
     if (seated) {
