@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -57,6 +58,19 @@ class SolidFace::Bodies {
     return entry->pairs;
   }
 
+  /// What `find` makes: the tangent at a phase under an expected load, which many positions of a stage ask for.
+  [[nodiscard]] Eigen::MatrixXd in_contact(double phase, double load,
+                                           const std::function<Eigen::MatrixXd()>& find) const {
+    const auto entry = [&] {
+      const std::lock_guard guard(lock_);
+      auto& found = tangents_[{phase, load}];
+      if (!found) found = std::make_shared<Tangent>();
+      return found;
+    }();
+    std::call_once(entry->once, [&] { entry->value = find(); });
+    return entry->value;
+  }
+
   /// m, of the elements along the line of action, from the pitch point into the driven gear.
   [[nodiscard]] Eigen::VectorXd arms(const ToothPairs& pairs) const {
     const auto& pair = flanks_.pair();
@@ -74,6 +88,10 @@ class SolidFace::Bodies {
     std::once_flag once;
     std::shared_ptr<const ToothPairs> pairs;
     bool counted = false;
+  };
+  struct Tangent {
+    std::once_flag once;
+    Eigen::MatrixXd value;  // slices and the lean, squared: small
   };
   static double bytes_of(const ToothPairs& pairs) { return 8.0 * static_cast<double>(pairs.compliance.size()); }
 
@@ -110,6 +128,7 @@ class SolidFace::Bodies {
   mutable std::mutex lock_;
   mutable std::map<Key, std::shared_ptr<Entry>> prepared_;
   mutable std::deque<Key> order_;
+  mutable std::map<std::pair<double, double>, std::shared_ptr<Tangent>> tangents_;
   mutable double bytes_ = 0;  // of the pairs that are held
 };
 
@@ -148,6 +167,20 @@ class SolidFaceLaw final : public FaceLaw {
 
   /// Under the expected load.
   [[nodiscard]] Eigen::MatrixXd in_contact() const override {
+    return bodies_.in_contact(phase_, load_, [&] { return SolidFaceLaw(bodies_, phase_, load_).under_load(); });
+  }
+
+  [[nodiscard]] Eigen::VectorXd line_load(const Eigen::VectorXd&, const State& state) const override {
+    Eigen::VectorXd load = state.force.head(size() - 1);
+    for (Eigen::Index s = 0; s < load.size(); ++s) {
+      const auto slice = static_cast<std::size_t>(s);
+      load[s] /= bodies_.edges()[slice + 1] - bodies_.edges()[slice];
+    }
+    return load;
+  }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd under_load() const {
     Eigen::VectorXd approach = Eigen::VectorXd::Zero(size());
     double step = 0.2 * bodies_.normal_factor() * contact_->pairs().reach / reach_;
     auto& a = approach;
@@ -161,16 +194,6 @@ class SolidFaceLaw final : public FaceLaw {
     throw SolverError(fmt::format("mesh phase {:.4f}: no approach of the flanks gives {:.4g} N", phase_, load_));
   }
 
-  [[nodiscard]] Eigen::VectorXd line_load(const Eigen::VectorXd&, const State& state) const override {
-    Eigen::VectorXd load = state.force.head(size() - 1);
-    for (Eigen::Index s = 0; s < load.size(); ++s) {
-      const auto slice = static_cast<std::size_t>(s);
-      load[s] /= bodies_.edges()[slice + 1] - bodies_.edges()[slice];
-    }
-    return load;
-  }
-
- private:
   void prepare() const {
     auto pairs = bodies_.pairs(phase_, load_, reach_);
     least_gap_ = std::numeric_limits<double>::infinity();

@@ -36,11 +36,22 @@ void CoupledFaces::soften(Eigen::MatrixXd& tangent) const {
   tangent -= moved * ((share + share.transpose()) / 2) * moved.transpose();
 }
 
+Eigen::VectorXd CoupledFaces::expected(const Eigen::VectorXd& approach) const {
+  if (last_force_.size() == 0) return Eigen::VectorXd::Zero(meshes());
+  return (last_force_ + last_slope_ * (approach - last_approach_)).cwiseMax(0);
+}
+
+void CoupledFaces::remember(const Eigen::VectorXd& approach, const State& state) const {
+  last_approach_ = approach;
+  last_force_ = sums() * state.force;
+  last_slope_ = sums() * state.tangent;
+}
+
 ElasticLaw::State CoupledFaces::at(const Eigen::VectorXd& approach) const {
   constexpr int most = 100;
   constexpr double wanted = 1e-13;
   State state;
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(meshes());
+  Eigen::VectorXd force = expected(approach);
   // The meshes at forces that they may not have, and what these differ by from their own.
   const auto evaluate = [&](const Eigen::VectorXd& assumed) {
     const Eigen::VectorXd loss = compliance_ * assumed;
@@ -65,6 +76,7 @@ ElasticLaw::State CoupledFaces::at(const Eigen::VectorXd& approach) const {
     const double size = std::max(force.cwiseAbs().maxCoeff(), state.force.cwiseAbs().maxCoeff());
     if (rest.cwiseAbs().maxCoeff() <= wanted * size) {
       soften(state.tangent);
+      remember(approach, state);
       return state;
     }
     const Eigen::MatrixXd slope =
@@ -79,6 +91,7 @@ ElasticLaw::State CoupledFaces::at(const Eigen::VectorXd& approach) const {
     }
     if (!(rest.norm() < before) && rest.cwiseAbs().maxCoeff() <= 1e-10 * size) {
       soften(state.tangent);
+      remember(approach, state);
       return state;
     }
   }

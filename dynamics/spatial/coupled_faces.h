@@ -16,7 +16,8 @@ class CoupledFaces final : public ElasticLaw {
   CoupledFaces(std::vector<std::shared_ptr<const FaceLaw>> meshes, Eigen::MatrixXd compliance);
 
   [[nodiscard]] int size() const override { return first_.back(); }
-  /// Throws SolverError when Newton's method does not find the forces.
+  /// Newton's method, from what the state before lets expect, which saves time and does not change the result but for
+  /// rounding. Throws SolverError when it does not find the forces.
   [[nodiscard]] State at(const Eigen::VectorXd& approach) const override;
   [[nodiscard]] Eigen::MatrixXd in_contact() const override;
   /// Number of the first coordinate of a mesh; behind the last one the number of all.
@@ -29,10 +30,16 @@ class CoupledFaces final : public ElasticLaw {
   /// Takes what the coupling adds off the tangents of the meshes alone.
   void soften(Eigen::MatrixXd& tangent) const;
   [[nodiscard]] Eigen::MatrixXd sums() const;
+  /// N, of the meshes at an approach.
+  [[nodiscard]] Eigen::VectorXd expected(const Eigen::VectorXd& approach) const;
+  /// The state of this approach is what the next one is expected from.
+  void remember(const Eigen::VectorXd& approach, const State& state) const;
 
   std::vector<std::shared_ptr<const FaceLaw>> meshes_;
   Eigen::MatrixXd compliance_;
   std::vector<int> first_;
+  mutable Eigen::VectorXd last_approach_, last_force_;
+  mutable Eigen::MatrixXd last_slope_;  // meshes x coordinates
 };
 
 }  // namespace annulus::dynamics

@@ -283,6 +283,8 @@ class Mechanism::Solver {
   Eigen::MatrixXd in_contact_;
 };
 
+void Mechanism::check() const { (void)Solver(*this); }
+
 Mechanism::Equilibrium Mechanism::solve(const Eigen::VectorXd& start) const { return Solver(*this).solve(start); }
 
 }  // namespace annulus::dynamics

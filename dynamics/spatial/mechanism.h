@@ -56,10 +56,12 @@ class Mechanism {
     double residual_relative = 0;             ///< of the largest force
     int iterations = 0;
   };
-  /// Newton's method with a search along each step, from the motion `start` where it is given. Throws InputError,
-  /// naming the motion, where a body can move and nothing resists, or two holds do the same; SolverError where no
-  /// equilibrium is found. Also refuses motions of a tenth of `length` and more, for which nothing but the rest of
-  /// bearings in their play is there.
+  /// What solve() refuses before it looks for an equilibrium: throws InputError, naming the motion, where a body can
+  /// move and nothing resists, or two holds do the same.
+  void check() const;
+  /// Newton's method with a search along each step, from the motion `start` where it is given. Throws what
+  /// check() throws, and SolverError where no equilibrium is found. Also refuses motions of a tenth of `length` and
+  /// more, for which nothing but the rest of bearings in their play is there.
   [[nodiscard]] Equilibrium solve(const Eigen::VectorXd& start = {}) const;
 
  private:

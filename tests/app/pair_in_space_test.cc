@@ -179,9 +179,11 @@ BOOST_AUTO_TEST_CASE(plan_warnings_and_refusals) {
   expect_refusal(pair_scene() + bearing("a", "pinion", "on = \"housing\"\nradial_N_per_m = 1e9\n"), "on");
   write_file(folder.path() / "scene.toml",
              pair_scene() + bearing("near", "pinion", "radial_N_per_m = 3e9\naxial_N_per_m = 1e9\n"));
-  const auto loose = test::run_program(folder.path(), "run scene.toml --out out --quiet");
-  BOOST_TEST(loose.status == 2);
-  BOOST_TEST(loose.err.find("nothing resists a motion of pinion about y") != std::string::npos, loose.err);
+  for (const auto* command : {"check scene.toml", "run scene.toml --out out --quiet"}) {
+    const auto loose = test::run_program(folder.path(), command);
+    BOOST_TEST(loose.status == 2, command);
+    BOOST_TEST(loose.err.find("nothing resists a motion of pinion about y") != std::string::npos, loose.err);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

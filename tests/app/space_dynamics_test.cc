@@ -138,9 +138,22 @@ BOOST_AUTO_TEST_CASE(what_is_assumed_is_said_and_bearings_can_be_studied) {
   const auto loose = test::replaced(moving_stage(bearings()), "axial_N_per_m = 1e9\n[[bearing]]\nname = \"downwind\"",
                                     "[[bearing]]\nname = \"downwind\"");
   write_file(folder.path() / "loose.toml", loose);
-  const auto refused = test::run_program(folder.path(), "run loose.toml --out loose --quiet");
-  BOOST_TEST(refused.status != 0);
-  BOOST_TEST(refused.err.find("nothing resists a motion of ") != std::string::npos, refused.err);
+  // Before meshes are solved, and without [dynamics].
+  auto at_rest = loose;
+  at_rest.erase(at_rest.find("[dynamics]"), at_rest.find("[[bearing]]") - at_rest.find("[dynamics]"));
+  write_file(folder.path() / "at_rest.toml", at_rest);
+  for (const auto* command : {"check loose.toml", "check at_rest.toml", "run loose.toml --out loose --quiet"}) {
+    const auto refused = test::run_program(folder.path(), command);
+    BOOST_TEST(refused.status == 2, command);
+    BOOST_TEST(refused.err.find("nothing resists a motion of ") != std::string::npos, refused.err);
+  }
+  // Bodies that are held twice: how both share the load is not known.
+  write_file(folder.path() / "twice.toml", held +
+                                               bearing("second", "carrier", "at_mm = 0\naxial_N_per_m = \"rigid\"\n") +
+                                               bearing("third", "carrier", "at_mm = 10\naxial_N_per_m = \"rigid\"\n"));
+  const auto twice = test::run_program(folder.path(), "check twice.toml");
+  BOOST_TEST(twice.status == 2);
+  BOOST_TEST(twice.err.find("is already held rigidly by other supports") != std::string::npos, twice.err);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

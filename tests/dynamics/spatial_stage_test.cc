@@ -327,8 +327,8 @@ BOOST_AUTO_TEST_CASE(tilting_planets_by_slices) {
     for (std::size_t n = 0; n < 3; ++n) {
       record.close("mesh forces, two slopes", "N", p.sun_meshes[n].force, expected.force[n], 1e-5, "slices");
       record.close("mesh forces, two slopes", "N", p.ring_meshes[n].force, expected.force[3 + n], 1e-5, "slices");
-      record.close("K_Hbeta", "", p.sun_meshes[n].line_load_ratio, expected.ratio[n], 5e-3, "width of a slice");
-      record.close("K_Hbeta", "", p.ring_meshes[n].line_load_ratio, expected.ratio[3 + n], 5e-3, "width of a slice");
+      record.close("K_Hbeta", "", p.sun_meshes[n].line_load_ratio(), expected.ratio[n], 5e-3, "width of a slice");
+      record.close("K_Hbeta", "", p.ring_meshes[n].line_load_ratio(), expected.ratio[3 + n], 5e-3, "width of a slice");
       const double phi = s.plane.planet_angles[n];
       const Vector3d tilt = expected.motion.segment<3>(static_cast<Eigen::Index>(6 + 6 * n + 3));
       const double about_tangent = -std::sin(phi) * tilt[0] + std::cos(phi) * tilt[1];

@@ -67,6 +67,17 @@ dynamics::SpatialPair unsolved_pair(const Scene& scene, const PairGeometry& geom
 
 bool pair_in_space(const Scene& scene) { return scene.own<SpaceInput>().any(); }
 
+void check_pair_bearings(const Scene& scene, const PairGeometry& geometry) {
+  if (!pair_in_space(scene)) return;
+  auto pair = unsolved_pair(scene, geometry);
+  pair.stiffness = nominal_mesh_stiffness(geometry.gears);
+  try {
+    check_held(pair);
+  } catch (const InputError& error) {
+    throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
+  }
+}
+
 std::string why_gears_tilt(const Scene& scene, const PairGeometry& geometry) {
   if (!pair_in_space(scene)) return {};
   const auto reasons = unsolved_pair(scene, geometry).reasons_for_space();

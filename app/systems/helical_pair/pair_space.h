@@ -16,6 +16,9 @@ namespace annulus::app {
 /// Whether the scene has [[bearing]] or [[load]] tables or [gravity].
 [[nodiscard]] bool pair_in_space(const Scene& scene);
 
+/// Before the mesh is solved: throws InputError where something moves freely or is held twice.
+void check_pair_bearings(const Scene& scene, const PairGeometry& geometry);
+
 /// Why gears tilt; empty: they do not.
 [[nodiscard]] std::string why_gears_tilt(const Scene& scene, const PairGeometry& geometry);
 

@@ -28,7 +28,11 @@ class PairSystem final : public GearSystem {
     return fmt::format("helical pair, {} and {} teeth", scene().pinion.teeth, scene().wheel.teeth);
   }
 
-  void check() const override { check_pair_geometry(scene(), make_pair_geometry(scene())); }
+  void check() const override {
+    const auto geometry = make_pair_geometry(scene());
+    check_pair_geometry(scene(), geometry);
+    check_pair_bearings(scene(), geometry);
+  }
 
   [[nodiscard]] DrawingData drawing() const override {
     const auto geometry = make_pair_geometry(scene());

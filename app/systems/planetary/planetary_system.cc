@@ -57,6 +57,7 @@ class PlanetarySystem final : public GearSystem {
       if (faults.size() < 2) throw;
       throw GeometryError(fmt::format("{}", fmt::join(faults, "\n")));
     }
+    check_stage_bearings(scene(), geometry());
     if (scene().rotors.empty()) return;
     try {
       dynamics::check_ripples(rotors_of(scene()), stage_kinematics(scene(), geometry(), 0).shaft_ends());

@@ -20,6 +20,7 @@
 #include "app/systems/shared/tilt_inertia.h"
 #include "core/errors.h"
 #include "core/log.h"
+#include "dynamics/spatial/even_face.h"
 #include "dynamics/systems/planetary/working_point.h"
 #include "fem/face_shape.h"
 #include "fem/problem/solved_face.h"
@@ -46,6 +47,23 @@ dynamics::StageSpace::TiltInertia tilt_inertias(const Scene& scene, const GearGe
 bool moves_in_space(const Scene& scene) {
   const auto& structure = scene.own<StructureInput>();
   return scene.own<SpaceInput>().any() || structure.carrier || structure.housing;
+}
+
+void check_stage_bearings(const Scene& scene, const GearGeometry& geometry) {
+  if (!moves_in_space(scene)) return;
+  auto stage = spatial_frame(scene, geometry, 0);
+  const auto& set = geometry.rings.front().set;
+  for (const auto& [face, pair] : {std::pair{&stage.sun_face, &set.sun_mesh()}, {&stage.ring_face, &set.ring_mesh()}}) {
+    const double half = pair->common_face().width / 2, stiffness = nominal_mesh_stiffness(*pair);
+    face->law = [=](double, dynamics::StageFace::Flank) {
+      return std::make_shared<dynamics::EvenFace>(stiffness, std::vector{-half, half}, std::vector{0.0, 0.0});
+    };
+  }
+  try {
+    dynamics::assemble(stage, 0).mechanism.check();
+  } catch (const InputError& error) {
+    throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
+  }
 }
 
 void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const GearGeometry& geometry, std::size_t ring,

@@ -17,6 +17,9 @@ namespace annulus::app {
 /// Whether the scene has [[bearing]] or [[load]] tables or [gravity], with which its bodies move in space.
 [[nodiscard]] bool moves_in_space(const Scene& scene);
 
+/// Before any mesh is solved: throws InputError where something moves freely or is held twice.
+void check_stage_bearings(const Scene& scene, const GearGeometry& geometry);
+
 /// Replaces the supports of a stage in the plane by its bearings. Throws InputError where something moves freely.
 void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                   const MeshResult& sun_mesh, const MeshResult& ring_mesh);

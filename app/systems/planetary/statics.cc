@@ -81,8 +81,11 @@ FigureSet all_figures(const StaticTurn& turn, const std::vector<OtherTurn>& othe
     add(name, mesh, "load_sharing_instantaneous", &StaticFigures::Mesh::sharing_instantaneous, Course::smooth);
     // A face of two stations is that of a plane stage, along which nothing is modelled.
     const auto& stations = mesh == &StaticFigures::sun ? turn.sun_stations : turn.ring_stations;
-    if (stations.size() > 2)
-      add(name, mesh, "face_load_factor", &StaticFigures::Mesh::line_load_ratio, Course::with_kinks);
+    if (stations.size() > 2) {
+      add(name, mesh, "face_load_factor", &StaticFigures::Mesh::line_load_ratio, Course::smooth);
+      add(name, mesh, "face_load_factor_instantaneous", &StaticFigures::Mesh::line_load_ratio_instantaneous,
+          Course::with_kinks);
+    }
   }
   return set;
 }
@@ -133,9 +136,9 @@ StaticSchedule schedule_of(const Scene& scene, const dynamics::SpatialStage& sta
   const auto& wanted = scene.own<StructureInput>().statics;
   const bool in_cycle = varies_in_cycle(scene.sun_planet) || varies_in_cycle(scene.ring_planet);
   const bool solid = faces.sun || faces.ring;
-  const int usual_phases = solid ? 4 : 8, period = dynamics::period_of(stage);
+  const int usual_phases = 8, period = dynamics::period_of(stage);
   const bool errors = stage.plane.error_period() > 1;
-  const int usual_places = !errors ? 32 : solid ? 96 : 768;
+  const int usual_places = errors ? (solid ? 96 : 768) : solid ? 16 : 32;
   return dynamics::places_over(period, wanted.places.value_or(usual_places),
                                wanted.phases.value_or(in_cycle ? usual_phases : 1));
 }
@@ -229,12 +232,12 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
   const StageFaces faces{.sun = of.sun_face, .ring = of.ring_face};
   const auto stage = make(faces);
   const auto schedule = schedule_of(of.scene, stage, faces);
-  const auto solved = [&](const dynamics::SpatialStage& s) {
-    return dynamics::solve_turn(s, schedule, options.threads);
-  };
   RingStatics result;
   result.ring = of.scene.rings[of.ring].name;
-  result.turn = solved(stage);
+  result.turn = dynamics::solve_turn(stage, schedule, options.threads);
+  const auto changed = [&](const StageFaces& with) {
+    return dynamics::solve_turn(make(with), schedule, options.threads, &result.turn);
+  };
   std::vector<OtherTurn> others;
   // What lies between the positions of a smooth course falls with the square of their distance: half of them leave four
   // times as much. The other half has the largest value where one does not. Several periods at once are met by chance.
@@ -247,23 +250,23 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
   // The elements leave no more than what a level changes.
   if (faces.sun || faces.ring)
     others.push_back(
-        {solved(make({.sun = solid_face(of.sun_mesh, options, 1), .ring = solid_face(of.ring_mesh, options, 1)}))});
+        {changed({.sun = solid_face(of.sun_mesh, options, 1), .ring = solid_face(of.ring_mesh, options, 1)})});
   const auto spread = [&](const std::shared_ptr<const fem::SolidFace>& face) { return !face; };
   if ((spread(faces.sun) && result.turn.sun_stations.size() > 2) ||
       (spread(faces.ring) && result.turn.ring_stations.size() > 2)) {
     auto fewer = faces;
     fewer.stretches /= 2;
-    others.push_back({solved(make(fewer)), of_half});
+    others.push_back({changed(fewer), of_half});
   }
   if (const double error = stiffness_error(of.sun_mesh); error > 0 && spread(faces.sun)) {
     auto stiffer = faces;
     stiffer.sun_factor += error;
-    others.push_back({solved(make(stiffer))});
+    others.push_back({changed(stiffer)});
   }
   if (const double error = stiffness_error(of.ring_mesh); error > 0 && spread(faces.ring)) {
     auto stiffer = faces;
     stiffer.ring_factor += error;
-    others.push_back({solved(make(stiffer))});
+    others.push_back({changed(stiffer)});
   }
   result.figures = all_figures(result.turn, others);
   result.bearings = all_bearings(stage, result.turn, others);
@@ -340,11 +343,19 @@ const std::vector<FigureSpec>& static_figures() {
       face.title = fmt::format("Face load factor of the {} in equilibrium over a turn", words);
       face.symbol = "K_Hβ";
       face.definition = fmt::format(
-          "Largest force per face width over the mean one of the mesh, of planets and {} in all positions of an "
-          "equilibrium without inertia (annulus statics). Meshes that carry less than a twentieth of the mean do not "
-          "count.",
+          "Largest force per face width over the mean one of the mesh, both averaged over a mesh cycle, of planets and "
+          "{} in an equilibrium without inertia (annulus statics). Meshes that carry less than a twentieth of the mean "
+          "do not count.",
           gear);
       face.better = Better::smaller;
+      specs.push_back(face);
+      face.key += "_instantaneous";
+      face.title = fmt::format("Face load factor of the {} in equilibrium, in any position", words);
+      face.definition = fmt::format(
+          "Largest force per face width over the mean one of the mesh at that moment, of planets and {} in an "
+          "equilibrium without inertia (annulus statics). Meshes that carry less than a twentieth of the mean do not "
+          "count. It is large where a pair comes into contact or leaves it at one end of the face.",
+          gear);
       specs.push_back(face);
     }
     return specs;

@@ -59,7 +59,7 @@ Csv meshes_csv(const RingStatics& ring) {
   return with_positions(ring, columns, [](const StaticPosition& p, std::vector<double>& row) {
     for (const auto& kind : mesh_kinds)
       for (const auto& mesh : p.*kind.meshes)
-        row.insert(row.end(), {mesh.force, mesh.line_load_ratio, mesh.place / units::mm});
+        row.insert(row.end(), {mesh.force, mesh.line_load_ratio(), mesh.place / units::mm});
   });
 }
 
@@ -102,7 +102,7 @@ const StaticPosition& worst_position(const RingStatics& ring, const MeshKind& ki
   const auto less = [&](const StaticPosition& a, const StaticPosition& b) {
     const auto ratio = [&](const StaticPosition& p) {
       const auto& mesh = (p.*kind.meshes)[n];
-      return mesh.force >= dynamics::StaticFigures::light_mesh * ring.mean_mesh_force ? mesh.line_load_ratio : 0.0;
+      return mesh.force >= dynamics::StaticFigures::light_mesh * ring.mean_mesh_force ? mesh.line_load_ratio() : 0.0;
     };
     return ratio(a) < ratio(b);
   };

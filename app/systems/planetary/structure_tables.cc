@@ -93,10 +93,10 @@ Table statics_table() {
            "are a "
            "turn where weight and loads of the housing act, otherwise the common period of the errors.")
       .from(1, 100000)
-      .absent("32; with eccentric gears or pitch deviations 768, or 96 of solid gears");
+      .absent("32, of solid gears 16; with eccentric gears or pitch deviations 768, of solid gears 96");
   statics.key("mesh_phases", &StaticsInput::phases, "Positions in the mesh cycle that begins at each of them.")
       .from(1, 1000)
-      .absent("one where no stiffness changes in the mesh cycle, 4 of solid gears, otherwise 8");
+      .absent("8; one where no stiffness changes in the mesh cycle");
   return statics.done();
 }
 

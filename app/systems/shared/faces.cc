@@ -37,6 +37,8 @@ double place_of_face(const geometry::GearPair& pair) {
   return std::abs(middle) < place_rounding * common.width ? 0 : middle;
 }
 
+double nominal_mesh_stiffness(const geometry::GearPair& pair) { return 20e9 * pair.common_face().width; }
+
 bool gaps_in_table(const MeshInput& input) { return input.stiffness == StiffnessShape::computed; }
 
 dynamics::SpreadFace motion_face(const geometry::GearPair& pair, const MeshInput& input,

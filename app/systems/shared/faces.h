@@ -25,6 +25,10 @@ inline constexpr double place_rounding = 1e-9;  ///< of widths and offsets in mi
 /// A computed table has its modifications and misalignment in its stiffness.
 [[nodiscard]] bool gaps_in_table(const MeshInput& input);
 
+/// N/m along the normal, where any stiffness of the usual size will do: 20 N/(mm um), as ISO 6336-1 takes it for
+/// c_gamma of steel gears.
+[[nodiscard]] double nominal_mesh_stiffness(const geometry::GearPair& pair);
+
 /// The face of a mesh in the dynamics, with what its flanks are apart along it.
 enum class GapsAlong { normal, transverse_section };
 [[nodiscard]] dynamics::SpreadFace motion_face(const geometry::GearPair& pair, const MeshInput& input,

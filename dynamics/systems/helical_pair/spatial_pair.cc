@@ -89,6 +89,10 @@ PairMechanism assemble(const SpatialPair& pair, Motions motions) {
   return result;
 }
 
+PairMechanism assemble(const SpatialPair& pair) {
+  return assemble(pair, pair.reasons_for_space().empty() ? Motions::in_plane : Motions::in_space);
+}
+
 /// A bearing of the housing in the axes of the lumped pair.
 void turn(LinearBearing& bearing, const Eigen::Matrix3d& axes) {
   LinearBearing::Stiffness all = LinearBearing::Stiffness::Identity();
@@ -122,9 +126,11 @@ std::vector<std::string> SpatialPair::reasons_for_space() const {
   return reasons;
 }
 
+void check_held(const SpatialPair& pair) { assemble(pair).mechanism.check(); }
+
 PairSpace pair_about_equilibrium(const SpatialPair& pair, double tilt_inertia_pinion, double tilt_inertia_wheel) {
   const bool in_space = !pair.reasons_for_space().empty();
-  const auto made = assemble(pair, in_space ? Motions::in_space : Motions::in_plane);
+  const auto made = assemble(pair);
   const auto at = made.mechanism.solve();
   const auto axes = along_line_of_action(pair);
   PairSpace space;

@@ -34,6 +34,10 @@ struct SpatialPair {
   [[nodiscard]] std::vector<std::string> reasons_for_space() const;
 };
 
+/// Throws InputError where a gear can move and nothing resists, or two rigid bearings do the same; any stiffness > 0 of
+/// the mesh shows it.
+void check_held(const SpatialPair& pair);
+
 /// The pair in space for small motions about its equilibrium: bearings with clearance, rollers and tables have their
 /// tangents there and the forces they bear. Where nothing calls for it, no gear moves along the axis or tilts. Throws
 /// InputError for bearings of other bodies or on others than the housing, and what Mechanism::solve() throws.

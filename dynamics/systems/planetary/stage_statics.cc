@@ -13,6 +13,10 @@ namespace annulus::dynamics {
 
 namespace {
 
+/// Places of one phase of which each starts from the one before. Their number is no matter of threads: results stay the
+/// same to the last digit.
+constexpr std::size_t run_of_places = 8;
+
 /// `loss`: m, of its approach through the other meshes.
 StaticMesh mesh_in(const StageMechanism::Mesh& mesh, const Mechanism::Equilibrium& at, double normal_factor,
                    double loss) {
@@ -27,7 +31,7 @@ StaticMesh mesh_in(const StageMechanism::Mesh& mesh, const Mechanism::Equilibriu
   const double force = law.force(state);
   result.force = normal_factor * force;
   if (force > 0) {
-    result.line_load_ratio = line.maxCoeff() * law.face_width() / force;
+    result.mean_line_load = force / law.face_width();
     for (Eigen::Index i = 0; i < std::ssize(law.stations()); ++i)
       result.place += law.stations()[static_cast<std::size_t>(i)] * state.force[i] / force;
   }
@@ -57,7 +61,8 @@ StaticBearing bearing_in(const StageMechanism& made, const MadeBearing& bearing,
   return result;
 }
 
-StaticPosition solved_position(const SpatialStage& stage, double cycles) {
+/// `start`: motion that the search starts from; empty: none.
+StaticPosition solved_position(const SpatialStage& stage, double cycles, const Eigen::VectorXd& start) {
   const auto& plane = stage.plane;
   StaticPosition p;
   p.mesh_cycles = cycles;
@@ -68,12 +73,13 @@ StaticPosition solved_position(const SpatialStage& stage, double cycles) {
   const auto made = assemble(stage, p.time);
   const auto at = [&] {
     try {
-      return made.mechanism.solve();
+      return made.mechanism.solve(start);
     } catch (const SolverError& error) {
       throw SolverError(fmt::format("statics at mesh cycle {:.4f}: {}", cycles, error.what()));
     }
   }();
   p.residual_relative = at.residual_relative;
+  p.motion = at.motion;
   const double normal_factor = std::cos(stage.base_helix_angle);
   const auto planets = static_cast<std::size_t>(stage.planets());
   Eigen::VectorXd losses = Eigen::VectorXd::Zero(stage.planets());
@@ -104,6 +110,18 @@ double mean_force(const std::vector<StaticMesh>& meshes) {
   return sum / static_cast<double>(meshes.size());
 }
 
+/// One planet's mesh over a mesh cycle.
+struct MeshCycle {
+  double force = 0, mean_line_load = 0;  // sums
+  Eigen::VectorXd line_load;
+  void add(const StaticMesh& mesh) {
+    force += mesh.force;
+    mean_line_load += mesh.mean_line_load;
+    const auto along = Eigen::Map<const Eigen::VectorXd>(mesh.line_load.data(), std::ssize(mesh.line_load));
+    line_load = line_load.size() == 0 ? Eigen::VectorXd(along) : Eigen::VectorXd(line_load + along);
+  }
+};
+
 StaticFigures::Mesh mesh_figures(const StaticTurn& turn, std::vector<StaticMesh> StaticPosition::*meshes) {
   constexpr double light = StaticFigures::light_mesh;
   StaticFigures::Mesh result;
@@ -118,24 +136,36 @@ StaticFigures::Mesh mesh_figures(const StaticTurn& turn, std::vector<StaticMesh>
     return sum == 0 ? std::numeric_limits<double>::quiet_NaN() : largest * static_cast<double>(planets) / std::abs(sum);
   };
   for (std::size_t place = 0; place < turn.schedule.cycles.size(); ++place) {
-    std::vector<double> mean(planets, 0.0);
+    std::vector<MeshCycle> cycle(planets);
     for (std::size_t k = 0; k < phases; ++k) {
       const auto& list = turn.positions[place * phases + k].*meshes;
       std::vector<double> now;
       for (std::size_t n = 0; n < planets; ++n) {
         now.push_back(list[n].force);
-        mean[n] += list[n].force;
+        cycle[n].add(list[n]);
         if (std::abs(list[n].force) >= light * mean_force(list))
-          result.line_load_ratio = std::max(result.line_load_ratio, list[n].line_load_ratio);
+          result.line_load_ratio_instantaneous =
+              std::max(result.line_load_ratio_instantaneous, list[n].line_load_ratio());
       }
       result.sharing_instantaneous = std::max(result.sharing_instantaneous, share(now));
     }
-    result.sharing = std::max(result.sharing, share(mean));
+    std::vector<double> forces;
+    for (const auto& mesh : cycle) forces.push_back(mesh.force);
+    result.sharing = std::max(result.sharing, share(forces));
+    double mean = 0;
+    for (const double f : forces) mean += std::abs(f) / static_cast<double>(planets);
+    for (const auto& mesh : cycle)
+      if (std::abs(mesh.force) >= light * mean && mesh.mean_line_load > 0)
+        result.line_load_ratio = std::max(result.line_load_ratio, mesh.line_load.maxCoeff() / mesh.mean_line_load);
   }
   return result;
 }
 
 }  // namespace
+
+double StaticMesh::line_load_ratio() const {
+  return mean_line_load > 0 ? *std::max_element(line_load.begin(), line_load.end()) / mean_line_load : 0.0;
+}
 
 int period_of(const SpatialStage& stage) {
   // A position error of the housing has the period that everything has that stands still in it.
@@ -154,17 +184,24 @@ StaticSchedule places_over(int cycles, int places, int phases) {
   return schedule;
 }
 
-StaticTurn solve_turn(const SpatialStage& stage, const StaticSchedule& schedule, int threads) {
+StaticTurn solve_turn(const SpatialStage& stage, const StaticSchedule& schedule, int threads, const StaticTurn* near) {
   StaticTurn turn;
   turn.schedule = schedule;
   turn.positions.resize(schedule.positions());
   const auto phases = static_cast<std::size_t>(schedule.phases);
+  const std::size_t places = schedule.cycles.size(), runs = (places + run_of_places - 1) / run_of_places;
   // Phase by phase: positions at one share what is prepared for it.
-  const std::size_t places = schedule.cycles.size();
-  for_each_task(turn.positions.size(), threads, [&](std::size_t task) {
-    const std::size_t phase = task / places, place = task % places;
-    turn.positions[place * phases + phase] =
-        solved_position(stage, schedule.cycles[place] + static_cast<double>(phase) / static_cast<double>(phases));
+  for_each_task(runs * phases, threads, [&](std::size_t task) {
+    const std::size_t phase = task / runs, first = task % runs * run_of_places;
+    for (std::size_t place = first; place < std::min(places, first + run_of_places); ++place) {
+      const std::size_t position = place * phases + phase;
+      const StaticPosition* from = near != nullptr ? &near->positions.at(position)
+                                   : place > first ? &turn.positions[position - phases]
+                                                   : nullptr;
+      turn.positions[position] =
+          solved_position(stage, schedule.cycles[place] + static_cast<double>(phase) / static_cast<double>(phases),
+                          from != nullptr ? from->motion : Eigen::VectorXd());
+    }
   });
   const auto made = assemble(stage, 0);
   for (const auto& bearing : made.bearings) turn.bearing_names.push_back(bearing.name);

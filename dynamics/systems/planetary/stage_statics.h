@@ -11,10 +11,12 @@ namespace annulus::dynamics {
 /// A gear mesh in one position of a stage in equilibrium.
 struct StaticMesh {
   double force = 0;                 ///< N, in the transverse section, of driving less back flanks
-  double line_load_ratio = 0;       ///< largest force per face width over the mean one; 0 without contact
+  double mean_line_load = 0;        ///< N/m, normal to the driving flanks
   double place = 0;                 ///< m, z of the resultant from the middle of the common face
   std::vector<double> line_load{};  ///< N/m, normal to the flanks, at the stations of the face
   bool back_flanks = false;         ///< do they carry?
+  /// Largest force per face width over the mean one; 0 without contact.
+  [[nodiscard]] double line_load_ratio() const;
 };
 
 /// What a bearing bears, in its frame.
@@ -39,6 +41,7 @@ struct StaticPosition {
   std::vector<StaticBody> bodies{};            ///< sun, ring, carrier, planets, their pins, places of the housing
   double carrier_torque = 0, ring_torque = 0;  ///< N m, on the stage from without; the ring's as far as it is held
   double residual_relative = 0;
+  Eigen::VectorXd motion{};  ///< m, rad: of the mechanism's bodies, 6 each (Mechanism)
 };
 
 /// A place of the carrier, with a whole number of mesh cycles before it, and phases of the mesh cycle that follows.
@@ -60,8 +63,10 @@ struct StaticTurn {
   std::vector<std::string> body_names{};
   std::vector<double> sun_stations{}, ring_stations{};  ///< m, of the line loads, from the middle of the common face
 };
-/// The stage in equilibrium in every position, without inertia; the same on any number of threads.
-[[nodiscard]] StaticTurn solve_turn(const SpatialStage& stage, const StaticSchedule& schedule, int threads);
+/// The stage in equilibrium in every position, without inertia; the same on any number of threads. `near`: the turn of
+/// a stage that is nearly the same, with the same schedule, which the search starts from.
+[[nodiscard]] StaticTurn solve_turn(const SpatialStage& stage, const StaticSchedule& schedule, int threads,
+                                    const StaticTurn* near = nullptr);
 
 /// Results of a turn that engineers decide by.
 struct StaticFigures {
@@ -70,7 +75,8 @@ struct StaticFigures {
   struct Mesh {
     double sharing = 0;                ///< K_gamma: largest mean over a mesh cycle of a planet over that of all
     double sharing_instantaneous = 0;  ///< largest force of a planet over the mean of all, in any position
-    double line_load_ratio = 0;        ///< K_Hbeta: largest of all positions and planets, but for light meshes
+    double line_load_ratio = 0;        ///< K_Hbeta: largest of all planets but light meshes, of loads over a mesh cycle
+    double line_load_ratio_instantaneous = 0;  ///< in any position
   };
   Mesh sun, ring;
 };
