@@ -1,14 +1,21 @@
 #include "app/model/time_series.h"
 
+#include <fmt/format.h>
+
 namespace annulus::app {
 
-Csv time_series_table(const dynamics::TimeSeries& series, int stride) {
+Csv time_series_table(const dynamics::TimeSeries& series, int window_cycles) {
   Csv csv;
+  Eigen::Index samples = series.time.size();
+  if (window_cycles > written_cycles) {
+    samples = samples / window_cycles * written_cycles;
+    csv.header.emplace_back("mesh_cycles", fmt::format("{} of {}", written_cycles, window_cycles));
+  }
   csv.columns.emplace_back("time_s");
   for (const auto& name : series.dofs) csv.columns.push_back(name + "_m");
   for (const auto& name : series.meshes) csv.columns.push_back(name + "_force_N");
-  csv.rows.reserve(static_cast<std::size_t>(series.time.size() / stride + 1));
-  for (Eigen::Index i = 0; i < series.time.size(); i += stride) {
+  csv.rows.reserve(static_cast<std::size_t>(samples));
+  for (Eigen::Index i = 0; i < samples; ++i) {
     auto& row = csv.rows.emplace_back();
     row.reserve(csv.columns.size());
     row.push_back(series.time[i]);

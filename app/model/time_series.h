@@ -5,7 +5,12 @@
 
 namespace annulus::app {
 
-/// All motions (m) and forces (N) over the time (s), by the names of their DOFs and meshes, each `stride`-th sample.
-[[nodiscard]] Csv time_series_table(const dynamics::TimeSeries& series, int stride = 1);
+/// Mesh cycles of a window that are written. A ring on pins repeats after more than a thousand of them, whose spectrum
+/// and results contain them all.
+inline constexpr int written_cycles = 200;
+
+/// All motions (m) and forces (N) over the time (s), by the names of their DOFs and meshes: every sample of the first
+/// `written_cycles`. A header line says how many of a longer window stand there.
+[[nodiscard]] Csv time_series_table(const dynamics::TimeSeries& series, int window_cycles);
 
 }  // namespace annulus::app

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model/reuse.h"
 #include "app/plan/gear_geometry.h"
 #include "app/scene/overrides.h"
 #include "app/systems/planetary/statics.h"
@@ -42,7 +43,7 @@ Solved solve(const Case& c, bool other_load, const app::RunOptions& options) {
   auto scene = app::read_scene_with(c.scene, settings);
   scene.rings.resize(static_cast<std::size_t>(c.rings));
   const Stopwatch watch;
-  const auto statics = app::solve_statics(scene, app::make_geometry(scene), options);
+  const auto statics = app::solve_statics(scene, app::make_geometry(scene), app::with_reuse(options));
   Solved solved{watch.wall(), watch.cpu()};
   for (const auto& ring : statics.rings) {
     solved.positions += ring.turn.positions.size();

@@ -69,8 +69,6 @@ void add_bearings(StageMotion& motion, const dynamics::StageMotion& found, const
 
 }  // namespace
 
-int written_stride(int window_cycles) { return window_cycles > dynamics::long_window ? 3 : 1; }
-
 StageMotion tabulated_motion(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response) {
   const auto found = dynamics::stage_motion(stage, response);
   StageMotion motion;
@@ -81,7 +79,8 @@ StageMotion tabulated_motion(const dynamics::PlanetaryStage& stage, const dynami
   motion.sun_orbit_largest = path.largest;
   motion.sun_orbit.columns = {"mesh_cycle", "x_m", "y_m", "housing_x_m", "housing_y_m"};
   const auto samples_per_cycle = static_cast<double>(path.x.size()) / response.window_cycles;
-  const int stride = written_stride(response.window_cycles);
+  // Long orbits are drawn by 21 points per mesh cycle.
+  const int stride = response.window_cycles > dynamics::long_window ? 3 : 1;
   for (Eigen::Index i = 0; i < path.x.size(); i += stride)
     motion.sun_orbit.rows.push_back(
         {static_cast<double>(i) / samples_per_cycle, path.x[i], path.y[i], path.housing_x[i], path.housing_y[i]});

@@ -29,10 +29,6 @@ struct StageMotion {
   Csv poincare;                          ///< once per mesh cycle
 };
 
-/// Of the samples of a window, every how many-th is written. A ring on pins repeats after more than a thousand mesh
-/// cycles: there 21 samples per mesh cycle hold the highest mesh harmonics of the spectrum, in some ten megabytes.
-[[nodiscard]] int written_stride(int window_cycles);
-
 [[nodiscard]] StageMotion tabulated_motion(const dynamics::PlanetaryStage& stage,
                                            const dynamics::DynamicResponse& response);
 

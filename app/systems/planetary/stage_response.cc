@@ -144,7 +144,7 @@ StageResponse simulate_stage(const dynamics::PlanetaryStage& stage, const dynami
   tabulate(result, response, stage.planets());
   result.motion = tabulated_motion(stage, response);
   for_each_stage_table(result, [](const char*, Csv& table) { table.round(); });
-  result.time_series = time_series_table(response.series, written_stride(response.window_cycles)).text();
+  result.time_series = time_series_table(response.series, response.window_cycles).text();
   response.series = {};
   result.errors = carried_errors(response, options, tables);
   set_errors(result.errors, response);

@@ -141,7 +141,7 @@ TrainMotion motion_of(const Scene& scene, const std::vector<WorkingPart>& parts,
   set_errors(response, motion.figures);
   motion.modes = modes_of(train);
   motion.shafts = shaft_courses(response);
-  motion.time_series = time_series_table(response.series).text();
+  motion.time_series = time_series_table(response.series, response.window_cycles).text();
   response.series = {};
   return motion;
 }

@@ -178,7 +178,7 @@ TwoKVMotion simulate_two_k_v(const Scene& scene, const TwoKVTables& tables,
         ((*list)[n].*factor).error = motion.results.figure(factor_key(mesh, n, name)).error;
   dynamics::set_errors(motion.shafts, motion.results);
   for_each_motion_table(motion, [](const char*, Csv& table) { table.round(); });
-  motion.time_series = time_series_table(response.series).text();
+  motion.time_series = time_series_table(response.series, response.window_cycles).text();
   return motion;
 }
 
