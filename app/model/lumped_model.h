@@ -8,6 +8,7 @@
 
 #include "core/figure.h"
 #include "dynamics/figures/motion.h"
+#include "dynamics/spatial/space_motion.h"
 #include "dynamics/steady_state/branches.h"
 
 namespace annulus::app {
@@ -46,11 +47,14 @@ class LumpedModel {
   using Follow = std::function<FollowedPoint(const dynamics::SystemState* start)>;
   /// The system itself.
   using Lumped = std::function<dynamics::LumpedCase()>;
-  /// What not every kind offers; the last two as GearSystem::offers says.
+  /// What bearings and meshes do in a time series of the system; empty where bodies stay in their plane.
+  using Space = std::function<dynamics::SpaceMotion(const dynamics::TimeSeries& series)>;
+  /// What not every kind offers; `follow` and `lumped` as GearSystem::offers says.
   struct Abilities {
     Starts starts{};
     Follow follow{};
     Lumped lumped{};
+    Space space{};
   };
 
   /// `id`: identity of everything the answers depend on.
@@ -66,6 +70,9 @@ class LumpedModel {
   }
   [[nodiscard]] FollowedPoint followed(const dynamics::SystemState* start) const { return abilities_.follow(start); }
   [[nodiscard]] dynamics::LumpedCase lumped() const { return abilities_.lumped(); }
+  [[nodiscard]] dynamics::SpaceMotion in_space(const dynamics::TimeSeries& series) const {
+    return abilities_.space ? abilities_.space(series) : dynamics::SpaceMotion{};
+  }
 
  private:
   std::string id_;

@@ -235,6 +235,34 @@ BOOST_AUTO_TEST_CASE(a_train) {
   BOOST_TEST(changed["inputs_id"] != summary["inputs_id"]);
 }
 
+// Two bearings beside the face of each gear, 40 and 60 mm from its middle, share the mesh force as a beam's supports
+// do.
+BOOST_AUTO_TEST_CASE(bearings_of_a_part) {
+  const test::TemporaryFolder folder("train_in_space");
+  write_train(folder);
+  auto second = pair_scene(25, 35, 500, 333);
+  for (const std::string gear : {"pinion", "wheel"})
+    for (const auto& [name, at] : {std::pair{"near", -40}, {"far", 60}})
+      second += fmt::format("[[bearing]]\nname = \"{} {}\"\nbody = \"{}\"\nat_mm = {}\nradial_N_per_m = 2e8\n{}", gear,
+                            name, gear, at, at < 0 ? "axial_N_per_m = 1e8\n" : "");
+  write_file(folder.path() / "parts" / "second.toml", second);
+  const auto outcome = test::run_program(folder.path(), "run train.toml --out out --quiet");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  const auto summary = summary_of(folder);
+  const auto& found = summary["parts"]["second"]["bearings_in_space"];
+  BOOST_TEST_REQUIRE(found.size() == 4u);
+  const double force = 300 / (4e-3 * 25 / 2 * std::cos(20 * M_PI / 180));
+  for (const std::string gear : {"pinion", "wheel"}) {
+    BOOST_TEST(std::abs(found[gear + " near"]["radial_mean_N"].get<double>() / (0.6 * force) - 1) < 1e-3);
+    BOOST_TEST(std::abs(found[gear + " far"]["radial_mean_N"].get<double>() / (0.4 * force) - 1) < 1e-3);
+  }
+  BOOST_TEST(!summary["parts"].contains("first"));
+  BOOST_TEST(summary["parts"]["second"]["places_of_mesh_forces"].size() == 1u);
+  BOOST_TEST(Csv::read(folder.path() / "out/dynamics/bearings_in_space_second.csv").rows.size() ==
+             summary["dynamics"]["window_cycles"].get<std::size_t>());
+  BOOST_TEST(read_file(folder.path() / "out/report.html").find("Bearings and faces in space") != std::string::npos);
+}
+
 // Two cycles per turn of a four-stroke engine of four cylinders; 20 teeth: ten cycles of the mesh.
 BOOST_AUTO_TEST_CASE(an_engine) {
   const test::TemporaryFolder folder("engine");

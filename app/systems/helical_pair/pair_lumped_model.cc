@@ -93,7 +93,8 @@ std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {
             figures.add(dynamics::frequency_figures(pair));
             return {{.figures = {dynamics::pair_figures(), figures}}, response.end};
           },
-          [pair = lumped.pair] { return dynamics::lumped_case(pair); }});
+          [pair = lumped.pair] { return dynamics::lumped_case(pair); },
+          [pair = lumped.pair](const dynamics::TimeSeries& series) { return dynamics::space_motion(pair, series); }});
 }
 
 FigureSet carried_pair_errors(const LumpedPair& lumped, const dynamics::SimulationOptions& options,

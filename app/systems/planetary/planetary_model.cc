@@ -11,6 +11,7 @@
 #include "app/systems/shared/mesh_names.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
+#include "dynamics/systems/planetary/space_motion.h"
 #include "dynamics/systems/planetary/study_point.h"
 
 namespace annulus::app {
@@ -121,7 +122,8 @@ std::unique_ptr<LumpedModel> planetary_model(const Scene& scene, const GearGeome
             return {{.figures = {dynamics::planetary_figures(), point.figures}, .poincare = std::move(point.poincare)},
                     std::move(point.end)};
           },
-          [stage] { return dynamics::lumped_case(stage); }});
+          [stage] { return dynamics::lumped_case(stage); },
+          [stage](const dynamics::TimeSeries& series) { return dynamics::space_motion(stage, series); }});
 }
 
 }  // namespace annulus::app

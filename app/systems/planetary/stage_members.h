@@ -60,10 +60,6 @@ ANNULUS_MEMBERS(app::StageModes, groups, bodies, list, shapes, campbell, critica
 ANNULUS_MEMBERS(app::StageMotion, pin_force_max, pin_force_mean, load_zone, sun_support, ring_support, carrier_support,
                 held_torque, orbit_extent, orbit_largest, section, section_period, section_clusters, bearing_forces,
                 space, sun_orbit, poincare);
-ANNULUS_MEMBERS(app::SpaceResults::Bearing, name, radial_mean, radial_max, axial_mean, axial_max, moment_max,
-                law_deviation);
-ANNULUS_MEMBERS(app::SpaceResults::Mesh, name, place_mean, place_min, place_max, face_width, solid_face);
-ANNULUS_MEMBERS(app::SpaceResults, bearings, meshes, table);
 ANNULUS_MEMBERS(app::StageResponse, figures, errors, modes, motion, load_sharing, force_factors, waveform,
                 sharing_waveform, spectrum, time_series, reused);
 ANNULUS_MEMBERS(app::CouplingEffect::Row, model, averaged, instantaneous, quasi_static, sun_factor, ring_factor);

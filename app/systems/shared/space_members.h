@@ -1,9 +1,10 @@
 #pragma once
 
 #include "app/model/dynamics_members.h"
+#include "app/systems/shared/space_results.h"
 #include "dynamics/spatial/linear_supports.h"
 
-/// Bearings, loads and faces of bodies in space (core/bytes.h).
+/// Bearings, loads and faces of bodies in space, and what they do in motion (core/bytes.h).
 namespace annulus {
 
 ANNULUS_MEMBERS(dynamics::StageBody, kind, planet);
@@ -21,5 +22,9 @@ ANNULUS_MEMBERS(dynamics::StandingLoad, body, cosine, sine);
 ANNULUS_MEMBERS(dynamics::SpaceSupports, laws, bearings, couplings, loads, standing_loads);
 ANNULUS_MEMBERS(FaceShape, slope, curvature, gap_slope, error_relative, tilted);
 ANNULUS_MEMBERS(dynamics::SpreadFace, width, middle, gap, shape);
+ANNULUS_MEMBERS(app::SpaceResults::Bearing, name, radial_mean, radial_max, axial_mean, axial_max, moment_max,
+                law_deviation);
+ANNULUS_MEMBERS(app::SpaceResults::Mesh, name, place_mean, place_min, place_max, face_width, solid_face);
+ANNULUS_MEMBERS(app::SpaceResults, bearings, meshes, table);
 
 }  // namespace annulus

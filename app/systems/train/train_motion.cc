@@ -10,6 +10,7 @@
 #include "app/model/time_series.h"
 #include "app/results/cached_value.h"
 #include "app/results/content_id.h"
+#include "app/systems/shared/space_members.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "dynamics/figures/common_figures.h"
@@ -29,7 +30,8 @@ struct Members<dynamics::TrainResponse> {
   }
 };
 ANNULUS_MEMBERS(app::TrainMode, frequency, body, element, kinetic, strain);
-ANNULUS_MEMBERS(app::TrainMotion, response, figures, modes, shafts, time_series);
+ANNULUS_MEMBERS(app::PartInSpace, part, results);
+ANNULUS_MEMBERS(app::TrainMotion, response, figures, modes, shafts, space, time_series);
 ANNULUS_MEMBERS(dynamics::TrainShaft::End, part, body);
 ANNULUS_MEMBERS(dynamics::TrainShaft, name, from, to, stiffness, damping_ratio, half_backlash);
 
@@ -116,6 +118,41 @@ Csv shaft_courses(const dynamics::TrainResponse& response) {
   return csv;
 }
 
+/// The series of a part by its own names, in its own order.
+dynamics::TimeSeries series_of_part(const dynamics::TimeSeries& train, const std::string& part) {
+  const auto prefix = part + ".";
+  const auto own = [&](const std::vector<std::string>& names, std::vector<std::string>& of_part) {
+    std::vector<Eigen::Index> rows;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i].starts_with(prefix)) {
+        rows.push_back(static_cast<Eigen::Index>(i));
+        of_part.push_back(names[i].substr(prefix.size()));
+      }
+    return rows;
+  };
+  dynamics::TimeSeries series;
+  const auto dofs = own(train.dofs, series.dofs), meshes = own(train.meshes, series.meshes);
+  series.time = train.time;
+  series.displacement = train.displacement(dofs, Eigen::all);
+  series.velocity = train.velocity(dofs, Eigen::all);
+  series.force = train.force(meshes, Eigen::all);
+  return series;
+}
+
+std::vector<PartInSpace> parts_in_space(const std::vector<WorkingPart>& parts,
+                                        const std::vector<const MeshResult*>& tables,
+                                        const dynamics::TrainResponse& response) {
+  std::vector<PartInSpace> list;
+  const auto own = tables_of_parts(parts, tables);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto model = parts[i].system->model(0, own[i]);
+    auto results =
+        space_results(model->in_space(series_of_part(response.series, parts[i].name)), response.window_cycles);
+    if (!results.bearings.empty()) list.push_back({parts[i].name, std::move(results)});
+  }
+  return list;
+}
+
 /// The totals of the errors back into what they belong to.
 void set_errors(dynamics::TrainResponse& response, const FigureSet& figures) {
   dynamics::set_errors(response.shafts, figures);
@@ -141,6 +178,7 @@ TrainMotion motion_of(const Scene& scene, const std::vector<WorkingPart>& parts,
   set_errors(response, motion.figures);
   motion.modes = modes_of(train);
   motion.shafts = shaft_courses(response);
+  motion.space = parts_in_space(parts, tables, response);
   motion.time_series = time_series_table(response.series, response.window_cycles).text();
   response.series = {};
   return motion;
@@ -224,6 +262,12 @@ std::unique_ptr<TrainRunResponse> train_response(const Scene& scene, const std::
   shafts.header = {{"annulus_version", version()}, {"inputs_id", id}};
   shafts.write(folder / "shafts.csv");
   write_file(folder / "time_series.csv", motion.time_series);
+  for (const auto& part : motion.space) {
+    auto table = part.results.table;
+    table.header = shafts.header;
+    table.round();
+    table.write(folder / fmt::format("bearings_in_space_{}.csv", part.part));
+  }
   motion.time_series.clear();
   const auto& found = motion.response;
   log::info("dynamics of the train: " +

@@ -6,6 +6,7 @@
 #include "app/model/lumped_model.h"
 #include "app/model/run_options.h"
 #include "app/model/system_run.h"
+#include "app/systems/shared/space_results.h"
 #include "app/systems/train/train_parts.h"
 #include "core/csv.h"
 
@@ -18,13 +19,20 @@ struct TrainMode {
   double kinetic = 0, strain = 0;
 };
 
+/// What the bearings and meshes of a part in space do.
+struct PartInSpace {
+  std::string part{};
+  SpaceResults results{};
+};
+
 /// The motion of a train.
 struct TrainMotion {
   dynamics::TrainResponse response;  ///< without its time series
   FigureSet figures{};               ///< results, with the parts of their errors
   std::vector<TrainMode> modes{};
-  Csv shafts{};               ///< torque over nominal torque of every shaft over the first cycles of the window
-  std::string time_series{};  ///< the file of all motions and forces; empty once it is written
+  Csv shafts{};                      ///< torque over nominal torque of every shaft over the first cycles of the window
+  std::vector<PartInSpace> space{};  ///< of those parts that have bearings in space
+  std::string time_series{};         ///< the file of all motions and forces; empty once it is written
 };
 
 /// The answer of a train.

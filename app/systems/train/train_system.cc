@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 
 #include "app/plan/plan.h"
+#include "app/systems/shared/faces.h"
 #include "app/systems/train/train_motion.h"
 #include "core/errors.h"
 #include "core/not_known.h"
@@ -98,6 +100,22 @@ class TrainSystem final : public GearSystem {
   [[nodiscard]] std::unique_ptr<RunResponse> respond(const SystemRun& run, std::size_t variant,
                                                      const RunOptions& options) const override {
     return train_response(scene(), parts(), run.tables_of(variant), options);
+  }
+
+  [[nodiscard]] std::vector<Warning> response_warnings(const SystemRun& run, std::size_t variant) const override {
+    std::vector<Warning> list;
+    const auto add = [&](std::vector<Warning> more) { std::move(more.begin(), more.end(), std::back_inserter(list)); };
+    const auto tables = tables_of_parts(parts(), run.tables_of(variant));
+    for (const auto& [name, results] : static_cast<const TrainRunResponse&>(*run.responses.at(variant)).motion.space) {
+      add(space_result_warnings(results, scene().accuracy, name, ""));
+      for (std::size_t i = 0; i < parts().size(); ++i) {
+        if (parts()[i].name != name) continue;
+        std::vector<std::pair<std::string, const MeshResult*>> meshes;
+        for (const auto* table : tables[i]) meshes.emplace_back(table->model.label(), table);
+        add(face_warnings(meshes, scene().accuracy, name));
+      }
+    }
+    return list;
   }
 
   [[nodiscard]] Json summary(const SystemRun& run) const override { return train_summary(run); }
