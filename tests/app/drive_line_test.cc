@@ -253,8 +253,8 @@ BOOST_AUTO_TEST_CASE(bearings_of_a_part) {
   BOOST_TEST_REQUIRE(found.size() == 4u);
   const double force = 300 / (4e-3 * 25 / 2 * std::cos(20 * M_PI / 180));
   for (const std::string gear : {"pinion", "wheel"}) {
-    BOOST_TEST(std::abs(found[gear + " near"]["radial_mean_N"].get<double>() / (0.6 * force) - 1) < 1e-3);
-    BOOST_TEST(std::abs(found[gear + " far"]["radial_mean_N"].get<double>() / (0.4 * force) - 1) < 1e-3);
+    BOOST_TEST(std::abs(found[gear + "_" + gear + "_near"]["radial_mean_N"].get<double>() / (0.6 * force) - 1) < 1e-3);
+    BOOST_TEST(std::abs(found[gear + "_" + gear + "_far"]["radial_mean_N"].get<double>() / (0.4 * force) - 1) < 1e-3);
   }
   BOOST_TEST(!summary["parts"].contains("first"));
   BOOST_TEST(summary["parts"]["second"]["places_of_mesh_forces"].size() == 1u);
