@@ -57,6 +57,18 @@ struct CouplingForces {
   std::vector<Eigen::MatrixXd> by_law;       ///< all of them
 };
 
+/// N, at the end of the table of a bearing; 0: it has none.
+double end_of_table(const SpaceSupports& supports, const LinearBearing& bearing) {
+  const auto end = [](const StageBearing& law) { return law.force.empty() ? 0.0 : law.force.back(); };
+  if (bearing.law) return end(*bearing.law);
+  for (const auto& coupling : supports.couplings) {
+    if (!coupling.law) continue;
+    for (const auto& seated : coupling.law->bearings)
+      if (seated.bearing.name == bearing.name && seated.bearing.body == bearing.body) return end(seated.bearing);
+  }
+  return 0;
+}
+
 }  // namespace
 
 SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& system, const TimeSeries& series) {
@@ -89,6 +101,7 @@ SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& sy
     if (b.stiffness.isZero(0) && !nonlinear) continue;  // all that it does is rigid
     const auto motion = course(system.bearings[i], series);
     SpaceMotion::Bearing bearing{b.element(), b.body, b.on, linear_force(b, motion, angle)};
+    bearing.table_end = end_of_table(supports, b);
     if (coupled.from_others[i].size() > 0) bearing.force += coupled.from_others[i];
     if (nonlinear) {
       Eigen::MatrixXd by_law =

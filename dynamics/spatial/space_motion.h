@@ -20,6 +20,7 @@ struct SpaceMotion {
     /// Of a bearing with its tangents: the largest difference of force, and moment over half the face width, to its
     /// whole law (or that of its coupling), over the mean mesh force.
     double law_deviation = 0;
+    double table_end = 0;  ///< N, radial, at which its table ends; 0: it has none
   };
   static constexpr double light = 0.05;  ///< of the mean force: where a mesh carries less, its place says nothing
   struct Mesh {

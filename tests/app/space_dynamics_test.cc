@@ -134,6 +134,14 @@ BOOST_AUTO_TEST_CASE(what_is_assumed_is_said_and_bearings_can_be_studied) {
   BOOST_TEST(warns(checked(held + bearing("guide", "carrier", "x_N_per_m = 1e9\n")), "bearings_averaged"));
   BOOST_TEST(
       !warns(checked(held + bearing("guide", "sun", "on = \"carrier\"\nx_N_per_m = 1e9\n")), "bearings_averaged"));
+  // A soft guide of 1 N/µm whose table ends below, and above, what it bears.
+  const auto guided = [&](const std::string& end) {
+    return run(folder,
+               held + bearing("guide", "sun",
+                              "radial_displacement_um = [0, " + end + "]\nradial_force_N = [0, " + end + "]\n"));
+  };
+  BOOST_TEST(warns(guided("1"), "bearing_beyond_table"));
+  BOOST_TEST(!warns(guided("1000"), "bearing_beyond_table"));
   // Without an axial bearing the carrier screws itself along the axis.
   const auto loose = test::replaced(moving_stage(bearings()), "axial_N_per_m = 1e9\n[[bearing]]\nname = \"downwind\"",
                                     "[[bearing]]\nname = \"downwind\"");

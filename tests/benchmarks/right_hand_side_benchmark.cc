@@ -1,5 +1,5 @@
-// Nanoseconds of one right-hand side of the stage of the ring paper (24 DOFs, 10 meshes), and the same equations
-// with dense matrices of Eigen as the peer.
+// Nanoseconds of one right-hand side of the stage of the ring paper (24 DOFs, 10 meshes) and of a helical stage in
+// space (6 meshes along their faces), and the same equations with dense matrices of Eigen as the peer.
 
 #include <fmt/format.h>
 
@@ -13,7 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "core/units.h"
 #include "dynamics/system/lumped_system.h"
+#include "tests/dynamics/lumped_stages.h"
 #include "tests/dynamics/stages.h"
 #include "tests/dynamics/tables.h"
 
@@ -24,8 +26,7 @@ using namespace annulus::dynamics;
 
 struct Case {
   std::string name;
-  MeshExcitation sun, ring;
-  std::shared_ptr<const RingCoupling> coupling{};
+  PlanetaryStage stage;
 };
 
 /// A ring through which each mesh takes some tenths of its own deflection from its neighbours.
@@ -40,6 +41,23 @@ std::shared_ptr<const RingCoupling> coupled_ring(int planets, int teeth) {
       for (int m = 0; m < n; ++m) d(n, m) = d(m, n) = 1e-10 * std::cos(n - m) * (1 + 0.1 * std::cos(0.1 * i));
   }
   return ring;
+}
+
+/// Excitations of sun and ring meshes from tables of a stage.
+PlanetaryStage on_tables(PlanetaryStage stage, LoadDependence dependence) {
+  const double load = stage.mean_mesh_force();
+  const auto sun = tables::BentTable{.mesh = "sun_planet", .mean = 1.364e9, .ripple = 0.2, .nominal = load}.table();
+  const auto ring = tables::BentTable{.nominal = load, .positions = 27}.table();
+  stage.sun_mesh = table_stiffness(sun, load, 0, dependence);
+  stage.ring_mesh = table_stiffness(ring, load, 0, dependence);
+  return stage;
+}
+
+/// All bodies move along the axis and tilt; the meshes are spread over their faces.
+PlanetaryStage helical_in_space() {
+  auto stage = stages::reliability_stage(7.5 * units::deg);
+  stages::lumped_in_space::add_all_bearings(stage);
+  return on_tables(stages::lumped_in_space::lumped(stage), LoadDependence::table);
 }
 
 /// M q'' = f - (C + G) q' - (K + K_Omega) q - B F with dense matrices.
@@ -99,24 +117,19 @@ int main(int argc, char** argv) {
   app.add_option("--calls", calls, "evaluations in a round")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
-  auto stage = stages::ring_paper();
-  const double load = stage.mean_mesh_force();
-  const auto sun = tables::BentTable{.mesh = "sun_planet", .mean = 1.364e9, .ripple = 0.2, .nominal = load}.table();
-  const auto ring = tables::BentTable{.nominal = load, .positions = 27}.table();
-  const std::vector<Case> cases = {
-      {"harmonic", stage.sun_mesh, stage.ring_mesh},
-      {"table, linear", table_stiffness(sun, load), table_stiffness(ring, load)},
-      {"table, law", table_stiffness(sun, load, 0, LoadDependence::table),
-       table_stiffness(ring, load, 0, LoadDependence::table)},
-      {"law, coupled", table_stiffness(sun, load, 0, LoadDependence::table),
-       table_stiffness(ring, load, 0, LoadDependence::table), coupled_ring(stage.planets(), stage.ring_teeth)},
-  };
-  fmt::print("{:<14} {:>8} {:>12} {:>12} {:>8}\n", "mesh", "DOFs", "ns", "dense, ns", "ratio");
+  const auto plane = stages::ring_paper();
+  const auto law = on_tables(plane, LoadDependence::table);
+  auto coupled = law;
+  coupled.ring_coupling = coupled_ring(plane.planets(), plane.ring_teeth);
+  const std::vector<Case> cases = {{"harmonic", plane},
+                                   {"table, linear", on_tables(plane, LoadDependence::nominal)},
+                                   {"table, law", law},
+                                   {"law, coupled", coupled},
+                                   {"law, faces", helical_in_space()}};
+  fmt::print("{:<14} {:>8} {:>12} {:>12} {:>8} {:>14}\n", "mesh", "DOFs", "ns", "dense, ns", "ratio", "ns per mesh");
   bool right = true;
   for (const auto& c : cases) {
-    stage.sun_mesh = c.sun;
-    stage.ring_mesh = c.ring;
-    stage.ring_coupling = c.coupling;
+    const auto& stage = c.stage;
     const auto system = assemble(stage);
     const int n = system.dofs();
     auto w = system.workspace();
@@ -124,13 +137,14 @@ int main(int argc, char** argv) {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(2 * n), dy(2 * n), expected(2 * n);
     for (int i = 0; i < n; ++i) y[i] = 1e-6 * std::sin(i), y[n + i] = 1e-3 * std::cos(i);
     y[system.find("sun_u")] += 1.5e-4;
-    for (int p = 1; p <= 5; ++p) y[system.find("planet" + std::to_string(p) + "_y")] -= 9e-5;
+    for (int p = 1; p <= stage.planets(); ++p) y[system.find("planet" + std::to_string(p) + "_y")] -= 9e-5;
     system.detect_contact(0, y.data(), w);
     DensePeer peer(system);
     const double step = 1 / stage.mesh_frequency() / 40;
     const double own = nanoseconds(rounds, calls, [&](int i) { system.rhs(i * step, y.data(), dy.data(), w); });
     const double dense = nanoseconds(rounds, calls, [&](int i) { peer(i * step, y, expected, w); });
-    fmt::print("{:<14} {:>8} {:>12.0f} {:>12.0f} {:>8.2f}\n", c.name, n, own, dense, dense / own);
+    fmt::print("{:<14} {:>8} {:>12.0f} {:>12.0f} {:>8.2f} {:>14.0f}\n", c.name, n, own, dense, dense / own,
+               own / (2 * stage.planets()));
     const double t = 0.0123;
     system.detect_contact(t, y.data(), w);  // the peer's states follow the deflections
     system.rhs(t, y.data(), dy.data(), w);

@@ -14,6 +14,7 @@
 #include "app/systems/planetary/structure_input.h"
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/space_input.h"
+#include "app/systems/shared/space_results.h"
 #include "core/errors.h"
 #include "core/units.h"
 
@@ -209,11 +210,7 @@ void warn_of_bearing_tables(std::vector<Warning>& list, const StaticTurn& turn, 
     if (bearing.force.empty()) continue;
     const double most = largest(turn, [&](const StaticPosition& p) { return p.bearings.at(i).force.head<2>().norm(); });
     if (most > bearing.force.back())
-      list.push_back({"bearing_beyond_table", Severity::warning,
-                      fmt::format("bearing '{}' bears up to {:.3g} N radially, more than the {:.3g} N at which its "
-                                  "table ends; the last piece is continued there",
-                                  bearing.name, most, bearing.force.back()),
-                      ring});
+      list.push_back(beyond_bearing_table(bearing.name, most, bearing.force.back(), ring));
   }
 }
 

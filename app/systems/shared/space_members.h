@@ -23,7 +23,7 @@ ANNULUS_MEMBERS(dynamics::SpaceSupports, laws, bearings, couplings, loads, stand
 ANNULUS_MEMBERS(FaceShape, slope, curvature, gap_slope, error_relative, tilted);
 ANNULUS_MEMBERS(dynamics::SpreadFace, width, middle, gap, shape);
 ANNULUS_MEMBERS(app::SpaceResults::Bearing, name, radial_mean, radial_max, axial_mean, axial_max, moment_max,
-                law_deviation);
+                law_deviation, table_end);
 ANNULUS_MEMBERS(app::SpaceResults::Mesh, name, place_mean, place_min, place_max, face_width, solid_face);
 ANNULUS_MEMBERS(app::SpaceResults, bearings, meshes, table);
 

@@ -59,7 +59,7 @@ SpaceResults space_results(const dynamics::SpaceMotion& found, int cycles) {
     const Eigen::VectorXd axial = bearing.force.row(2).transpose();
     const Eigen::VectorXd moment = bearing.force.bottomRows<2>().colwise().norm().transpose();
     results.bearings.push_back({name, mean_of(radial), radial.maxCoeff(), mean_of(axial), axial.cwiseAbs().maxCoeff(),
-                                moment.maxCoeff(), bearing.law_deviation});
+                                moment.maxCoeff(), bearing.law_deviation, bearing.table_end});
     const auto in_cycles = [&](const Eigen::VectorXd& values) { return dynamics::over_cycles(values, cycles); };
     add_column(csv, name + "_radial_max_N", in_cycles(radial).largest);
     add_column(csv, name + "_axial_mean_N", in_cycles(axial).mean);
@@ -78,6 +78,14 @@ SpaceResults space_results(const dynamics::SpaceMotion& found, int cycles) {
   return results;
 }
 
+Warning beyond_bearing_table(const std::string& bearing, double most, double end, const std::string& ring) {
+  return {"bearing_beyond_table", Severity::warning,
+          fmt::format("bearing '{}' bears up to {:.3g} N radially, more than the {:.3g} N at which its table ends; the "
+                      "last piece is continued there",
+                      bearing, most, end),
+          ring};
+}
+
 std::vector<Warning> space_result_warnings(const SpaceResults& results, double accuracy, const std::string& ring,
                                            const std::string& remedy) {
   std::vector<Warning> list;
@@ -92,6 +100,9 @@ std::vector<Warning> space_result_warnings(const SpaceResults& results, double a
                           fem::reduced_face_tilt * mesh->face_width / 6 / units::mm);
     list.push_back({"face_tilts", Severity::warning, std::move(text), ring});
   }
+  for (const auto& bearing : results.bearings)
+    if (bearing.table_end > 0 && bearing.radial_max > bearing.table_end)
+      list.push_back(beyond_bearing_table(bearing.name, bearing.radial_max, bearing.table_end, ring));
   const auto worst = std::max_element(results.bearings.begin(), results.bearings.end(),
                                       [](const auto& a, const auto& b) { return a.law_deviation < b.law_deviation; });
   if (worst != results.bearings.end() && worst->law_deviation > accuracy)

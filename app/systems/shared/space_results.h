@@ -21,7 +21,7 @@ struct SpaceResults {
     std::string name;
     double radial_mean = not_known, radial_max = not_known, axial_mean = not_known, axial_max = not_known;
     double moment_max = not_known;
-    double law_deviation = 0;  ///< SpaceMotion::Bearing
+    double law_deviation = 0, table_end = 0;  ///< SpaceMotion::Bearing
   };
   /// Place of the mesh force along the face, m from its middle.
   struct Mesh {
@@ -38,8 +38,12 @@ struct SpaceResults {
 
 /// `cycles`: mesh cycles of the window. Empty without bearings.
 [[nodiscard]] SpaceResults space_results(const dynamics::SpaceMotion& motion, int cycles);
-/// Bearings that act with their tangents and deviate from their law by more than `accuracy`; faces of solid gears that
-/// tilt further than the results of their tables know. `remedy`: where K_Hβ of gears that tilt is found, or nothing.
+/// A bearing that bears more (N, radial) than the end of its table.
+[[nodiscard]] Warning beyond_bearing_table(const std::string& bearing, double most, double end,
+                                           const std::string& ring);
+/// Bearings that bear more than the end of their table, that act with their tangents and deviate from their law by more
+/// than `accuracy`; faces of solid gears that tilt further than the results of their tables know. `remedy`: where K_Hβ
+/// of gears that tilt is found, or nothing.
 [[nodiscard]] std::vector<Warning> space_result_warnings(const SpaceResults& results, double accuracy,
                                                          const std::string& ring, const std::string& remedy);
 /// Members bearings_in_space and places_of_mesh_forces; none where there are no results.
