@@ -252,12 +252,16 @@ BOOST_AUTO_TEST_CASE(bearings_of_a_part) {
   const auto& found = summary["parts"]["second"]["bearings_in_space"];
   BOOST_TEST_REQUIRE(found.size() == 4u);
   const double force = 300 / (4e-3 * 25 / 2 * std::cos(20 * M_PI / 180));
+  // The gears tilt a little in bearings that are not symmetric, and their force leaves the middle of the face.
+  BOOST_TEST_REQUIRE(summary["parts"]["second"]["places_of_mesh_forces"].size() == 1u);
+  const double place = summary["parts"]["second"]["places_of_mesh_forces"].begin()->at("mean_m").get<double>();
+  BOOST_TEST(std::abs(place) < 2e-3);
   for (const std::string gear : {"pinion", "wheel"}) {
-    BOOST_TEST(std::abs(found[gear + "_" + gear + "_near"]["radial_mean_N"].get<double>() / (0.6 * force) - 1) < 1e-3);
-    BOOST_TEST(std::abs(found[gear + "_" + gear + "_far"]["radial_mean_N"].get<double>() / (0.4 * force) - 1) < 1e-3);
+    const double near = force * (0.06 - place) / 0.1, far = force * (0.04 + place) / 0.1;
+    BOOST_TEST(std::abs(found[gear + "_" + gear + "_near"]["radial_mean_N"].get<double>() / near - 1) < 1e-3);
+    BOOST_TEST(std::abs(found[gear + "_" + gear + "_far"]["radial_mean_N"].get<double>() / far - 1) < 1e-3);
   }
   BOOST_TEST(!summary["parts"].contains("first"));
-  BOOST_TEST(summary["parts"]["second"]["places_of_mesh_forces"].size() == 1u);
   BOOST_TEST(Csv::read(folder.path() / "out/dynamics/bearings_in_space_second.csv").rows.size() ==
              summary["dynamics"]["window_cycles"].get<std::size_t>());
   BOOST_TEST(read_file(folder.path() / "out/report.html").find("Bearings and faces in space") != std::string::npos);
