@@ -4,13 +4,16 @@
 
 namespace annulus::app {
 
+Eigen::Index written_samples(const dynamics::TimeSeries& series, int window_cycles, Csv& csv) {
+  constexpr int most = dynamics::long_window;
+  if (window_cycles <= most) return series.time.size();
+  csv.header.emplace_back("mesh_cycles", fmt::format("{} of {}", most, window_cycles));
+  return series.time.size() / window_cycles * most;
+}
+
 Csv time_series_table(const dynamics::TimeSeries& series, int window_cycles) {
   Csv csv;
-  Eigen::Index samples = series.time.size();
-  if (window_cycles > written_cycles) {
-    samples = samples / window_cycles * written_cycles;
-    csv.header.emplace_back("mesh_cycles", fmt::format("{} of {}", written_cycles, window_cycles));
-  }
+  const auto samples = written_samples(series, window_cycles, csv);
   csv.columns.emplace_back("time_s");
   for (const auto& name : series.dofs) csv.columns.push_back(name + "_m");
   for (const auto& name : series.meshes) csv.columns.push_back(name + "_force_N");

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/scene/scene_limits.h"
+#include "core/errors.h"
 
 namespace annulus::app {
 
@@ -48,6 +49,14 @@ std::string place_text(const Scene& scene, const std::string& key, std::size_t e
 
 std::string with_place(const Scene& scene, const std::string& message) {
   return text_of(scene, talked_about(scene, message)) + ": " + without_controls(message);
+}
+
+void about(const Scene& scene, const std::string& name, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    throw InputError(with_place(scene, name + ": " + error.what()));
+  }
 }
 
 std::string without_place(const Scene& scene, const std::string& message) {

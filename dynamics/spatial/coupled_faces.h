@@ -16,8 +16,8 @@ class CoupledFaces final : public ElasticLaw {
   CoupledFaces(std::vector<std::shared_ptr<const FaceLaw>> meshes, Eigen::MatrixXd compliance);
 
   [[nodiscard]] int size() const override { return first_.back(); }
-  /// Newton's method, from what the state before lets expect, which saves time and does not change the result but for
-  /// rounding. Throws SolverError when it does not find the forces.
+  /// Newton's method. It starts from the state before, which saves time and does not change the result but for
+  /// rounding: an object belongs to one thread. Throws SolverError when it does not find the forces.
   [[nodiscard]] State at(const Eigen::VectorXd& approach) const override;
   [[nodiscard]] Eigen::MatrixXd in_contact() const override;
   /// Number of the first coordinate of a mesh; behind the last one the number of all.

@@ -152,7 +152,7 @@ LumpedSystem with_rotors(const LumpedSystem& system, const std::vector<Rotor>& r
     const auto chain = rotors_of(rotors, end.name);
     if (chain.empty()) continue;
     const int body = system.find(dof_of(end.name));
-    const double load = system.load()[body], square = end.radius * end.radius;
+    const double load = end.load, square = end.radius * end.radius;
     double mass_before = system.mass()(body, body);
     const LinearForm first{{body, 1.0}};
     LinearForm before = first;

@@ -32,11 +32,17 @@ struct ShaftEnd {
   double radius = 0;      ///< m
   std::string refusal{};  ///< why no shaft can lead to it: "it is held"; empty: one can
   double speed = 0;       ///< rad/s, of its steady rotation, either sign
+  /// N along its DOF: its torque from without over the radius. The constant load of the DOF may contain more, as what
+  /// bearings bear at the equilibrium about which they are linear.
+  double load = 0;
 };
+
+/// N, of a torque (N m) at a radius (m), which need not be known without torque.
+[[nodiscard]] inline double force_at(double radius, double torque) { return torque == 0 ? 0 : torque / radius; }
 
 /// The system with rotors, whose shafts lead to its bodies one behind the other. DOFs <rotor>_u = radius of the body x
 /// rotation, behind those of the system; elements <rotor>_shaft behind its meshes, N along u, positive where they pass
-/// on the torque of the body. That torque, the constant load of its DOF, acts on the last rotor instead. Ripples of
+/// on the torque of the body. That torque (ShaftEnd::load) acts on the last rotor instead. Ripples of
 /// rotors that do not turn are left out. Without rotors the system itself.
 ///
 /// Throws what check_rotors throws, and InputError for names that DOFs or elements of the system have already.

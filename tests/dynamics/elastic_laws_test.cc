@@ -95,6 +95,11 @@ BOOST_AUTO_TEST_CASE(coupled_faces) {
   for (int n = 0; n < 3; ++n)
     record.close("forces of three meshes", "N", state.force.segment(3 * n, 3).sum(), expected[n], 1e-12, "rounding");
   BOOST_TEST((law.losses(state) - d * expected).norm() <= 1e-12 * (d * expected).norm());
+  // Whatever it was asked before.
+  Eigen::VectorXd elsewhere = approach;
+  elsewhere.segment(3, 3) << 12e-6, -3e-6, -20e-6;
+  (void)law.at(elsewhere);
+  BOOST_TEST((law.at(approach).force - state.force).norm() <= 1e-12 * state.force.norm());
   const auto smooth = annulus::test::law_slopes(law, approach, 1e-9);
   approach.segment(3, 3) << 12e-6, -3e-6, -20e-6;
   const auto lifted = annulus::test::law_slopes(law, approach, 1e-9);

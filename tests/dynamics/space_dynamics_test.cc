@@ -533,6 +533,27 @@ BOOST_AUTO_TEST_CASE(coupled_meshes_in_space) {
   }
 }
 
+// The shaft of a carrier passes on its torque, whatever the bearings of the planets bear that stand on it.
+BOOST_AUTO_TEST_CASE(rotor_on_a_carrier) {
+  auto s = stages::reliability_stage(7.5 * units::deg);
+  add_all_bearings(s);
+  auto stage = lumped(s);
+  stage.rotors = {{.name = "blades", .on = "carrier", .inertia = 1e5, .shaft_stiffness = 1e8}};
+  const auto system = assemble(stage);
+  const double torque = stage.carrier_torque(), radius = stage.carrier.radius;
+  BOOST_TEST(std::abs(system.load()[system.find("blades_u")] * radius + torque) <= 1e-9 * torque);
+  StaticSolver solver(system);
+  auto workspace = system.workspace();
+  const Eigen::VectorXd start = Eigen::VectorXd::Zero(system.dofs());
+  system.detect_contact(0, start.data(), workspace);
+  (void)solver.solve(0, workspace);
+  const auto shaft = std::find_if(system.meshes().begin(), system.meshes().end(),
+                                  [](const auto& mesh) { return mesh.name == "blades_shaft"; });
+  BOOST_TEST_REQUIRE((shaft != system.meshes().end()));
+  const double passed = workspace.force[static_cast<std::size_t>(shaft - system.meshes().begin())] * radius;
+  BOOST_TEST(std::abs(passed - torque) <= 1e-8 * torque);
+}
+
 BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   auto s = with_planets(7.5, 3);
   auto stage = lumped(s);

@@ -1,5 +1,6 @@
 #include <Eigen/Core>
 #include <Eigen/Dense>
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -205,6 +206,53 @@ BOOST_AUTO_TEST_CASE(weight_of_a_floating_sun_over_a_turn) {
       const double expected = s.plane.mean_mesh_force() + 2.0 / 3 * 180 * 9.81 * std::cos(along - down);
       record.close("sun mesh forces at 12 angles", "N", p.sun_meshes[n].force, expected, 1e-9, "residual");
     }
+}
+
+// Where the search starts from changes nothing: there is one equilibrium.
+BOOST_AUTO_TEST_CASE(any_start_finds_the_same_equilibrium) {
+  auto s = stages::reliability_stage(7.5 * units::deg);
+  add_all_bearings(s);
+  s.gravity = {0, -9.81, 0};
+  for (const auto& [body, mass] : {std::pair{StageBody{Kind::sun}, 180.0}, {StageBody{Kind::carrier}, 1500.0}})
+    s.weights.push_back({body, mass, 0});
+  const auto schedule = places_over(period_of(s), 20, 2);
+  const auto turn = solve_turn(s, schedule, 1);
+  auto stiffer = s;
+  stiffer.sun_face = stages::even_face(3.3e9, 0.22);
+  const auto from_near = solve_turn(stiffer, schedule, 1, &turn);
+  const double force = s.plane.mean_mesh_force();
+  for (std::size_t i = 0; i < turn.positions.size(); ++i) {
+    const auto& p = turn.positions[i];
+    const auto alone = at_once(s, {p.mesh_cycles}).positions.front();
+    const auto stiffer_alone = at_once(stiffer, {p.mesh_cycles}).positions.front();
+    for (std::size_t n = 0; n < 3; ++n) {
+      // Residuals are 1e-12 of the largest force, and soft splines make more of them.
+      BOOST_TEST(std::abs(p.sun_meshes[n].force - alone.sun_meshes[n].force) <= 1e-9 * force);
+      BOOST_TEST(std::abs(from_near.positions[i].sun_meshes[n].force - stiffer_alone.sun_meshes[n].force) <=
+                 1e-9 * force);
+    }
+  }
+}
+
+// Two positions of one mesh cycle: each loads another end of the face, in the mean it is even.
+BOOST_AUTO_TEST_CASE(face_load_over_a_mesh_cycle) {
+  StaticMesh one_end{.force = 10, .mean_line_load = 2, .place = 0, .line_load = {1, 2, 3}};
+  auto other_end = one_end;
+  other_end.line_load = {3, 2, 1};
+  StaticMesh light{.force = 0.1, .mean_line_load = 0.02, .place = 0, .line_load = {0, 0, 0.06}};
+  StaticTurn turn;
+  turn.schedule = {.cycles = {0}, .phases = 2};
+  turn.positions.resize(2);
+  turn.positions[0].sun_meshes = {one_end, light};
+  turn.positions[1].sun_meshes = {other_end, light};
+  // The line load of the ring mesh changes its amount as well: (1 + 6) over (1 + 3) at one end.
+  turn.positions[0].ring_meshes = {{.force = 5, .mean_line_load = 1, .place = 0, .line_load = {1, 1, 1}}};
+  turn.positions[1].ring_meshes = {{.force = 15, .mean_line_load = 3, .place = 0, .line_load = {0, 3, 6}}};
+  const auto figures = figures_of(turn);
+  BOOST_TEST(figures.sun.line_load_ratio == 1.0);
+  BOOST_TEST(figures.sun.line_load_ratio_instantaneous == 1.5);
+  BOOST_TEST(figures.ring.line_load_ratio == 1.75);
+  BOOST_TEST(figures.ring.line_load_ratio_instantaneous == 2.0);
 }
 
 /// The stage by other means: faces cut into slices that are springs, approaches written out in parts, contact found by

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/model/time_series.h"
 #include "app/results/content_id.h"
 #include "app/run/pipeline.h"
 #include "app/systems/helical_pair/pair_lumped_model.h"
@@ -32,7 +33,8 @@ Csv series_table(const dynamics::HelicalPair& pair, const dynamics::PairResponse
   // Half the backlash is no error of a loaded mesh (PairMotions).
   const double side = pair.pinion_torque > 0 ? 1 : pair.pinion_torque < 0 ? -1 : 0;
   const double touching = side * pair.half_backlash.value_or(0) / std::cos(pair.base_helix_angle);
-  for (Eigen::Index i = 0; i < s.time.size(); ++i) {
+  const auto samples = written_samples(s, response.window_cycles, csv);
+  for (Eigen::Index i = 0; i < samples; ++i) {
     auto& row = csv.rows.emplace_back(1, s.time[i]);
     row.insert(row.end(), s.displacement.col(i).begin(), s.displacement.col(i).end());
     row.push_back(s.force(0, i));

@@ -14,7 +14,6 @@
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/space_input.h"
 #include "app/systems/shared/tilt_inertia.h"
-#include "core/errors.h"
 #include "dynamics/systems/helical_pair/spatial_pair.h"
 
 namespace annulus::app {
@@ -71,11 +70,7 @@ void check_pair_bearings(const Scene& scene, const PairGeometry& geometry) {
   if (!pair_in_space(scene)) return;
   auto pair = unsolved_pair(scene, geometry);
   pair.stiffness = nominal_mesh_stiffness(geometry.gears);
-  try {
-    check_held(pair);
-  } catch (const InputError& error) {
-    throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
-  }
+  about(scene, "bearing", [&] { check_held(pair); });
 }
 
 std::string why_gears_tilt(const Scene& scene, const PairGeometry& geometry) {
@@ -99,12 +94,8 @@ void put_in_space(dynamics::HelicalPair& pair, const Scene& scene, const PairGeo
   spatial.stiffness = dynamics::mean_stiffness(pair.mesh);
   spatial.face =
       motion_face(geometry.gears, scene.pinion_wheel, face, scene.errors.pinion_wheel_misalignment, GapsAlong::normal);
-  try {
-    pair.space = dynamics::pair_about_equilibrium(spatial, of_pinion, of_wheel);
-    pair.space->laws = scene.dynamics->bearing_laws;
-  } catch (const InputError& error) {
-    throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
-  }
+  about(scene, "bearing", [&] { pair.space = dynamics::pair_about_equilibrium(spatial, of_pinion, of_wheel); });
+  pair.space->laws = scene.dynamics->bearing_laws;
   pair.space->mass_place_pinion = gravity.pinion;
   pair.space->mass_place_wheel = gravity.wheel;
 }

@@ -88,14 +88,9 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
     return given_stiffness(model, in_transverse_section(sun ? scene.sun_planet : scene.ring_planet, pair), scene,
                            pair.contact_ratio(), geometry.operating_point.mean_mesh_force);
   }
-  auto result = [&] {
-    try {
-      return computed_stiffness(model, model.ring, options);
-    } catch (const InputError& error) {  // found only by the solve; with its place
-      const std::string what = sun ? "sun" : "ring '" + model.ring + "'";
-      throw InputError(with_place(scene, what + ": " + error.what()));
-    }
-  }();
+  MeshResult result;
+  about(scene, sun ? "sun" : "ring '" + model.ring + "'",
+        [&] { result = computed_stiffness(model, model.ring, options); });
   if (options.with_dynamics && scene.dynamics && moves_in_space(scene))
     result.face = face_in_motion(result, geometry.operating_point.mean_mesh_force, options);
   if (options.with_dynamics && may_be_coupled(scene, model)) {

@@ -51,18 +51,17 @@ bool moves_in_space(const Scene& scene) {
 
 void check_stage_bearings(const Scene& scene, const GearGeometry& geometry) {
   if (!moves_in_space(scene)) return;
-  auto stage = spatial_frame(scene, geometry, 0);
-  const auto& set = geometry.rings.front().set;
-  for (const auto& [face, pair] : {std::pair{&stage.sun_face, &set.sun_mesh()}, {&stage.ring_face, &set.ring_mesh()}}) {
-    const double half = pair->common_face().width / 2, stiffness = nominal_mesh_stiffness(*pair);
-    face->law = [=](double, dynamics::StageFace::Flank) {
-      return std::make_shared<dynamics::EvenFace>(stiffness, std::vector{-half, half}, std::vector{0.0, 0.0});
-    };
-  }
-  try {
-    dynamics::assemble(stage, 0).mechanism.check();
-  } catch (const InputError& error) {
-    throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
+  for (std::size_t ring = 0; ring < scene.rings.size(); ++ring) {
+    auto stage = spatial_frame(scene, geometry, ring);
+    const auto& set = geometry.rings.at(ring).set;
+    for (const auto& [face, pair] :
+         {std::pair{&stage.sun_face, &set.sun_mesh()}, {&stage.ring_face, &set.ring_mesh()}}) {
+      const double half = pair->common_face().width / 2, stiffness = nominal_mesh_stiffness(*pair);
+      face->law = [=](double, dynamics::StageFace::Flank) {
+        return std::make_shared<dynamics::EvenFace>(stiffness, std::vector{-half, half}, std::vector{0.0, 0.0});
+      };
+    }
+    about(scene, "bearing", [&] { dynamics::assemble(stage, 0).mechanism.check(); });
   }
 }
 
@@ -77,12 +76,8 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
   for (const auto& [face, mesh] : {std::pair{&spatial.sun_face, &sun_mesh}, {&spatial.ring_face, &ring_mesh}})
     if (mesh->face) face->symmetric = fem::asymmetry_of_face(*mesh->model.problem).empty();
   const auto inertias = tilt_inertias(scene, geometry, ring);
-  try {
-    stage.space = dynamics::space_about_equilibrium(spatial, inertias);
-    stage.space->laws = scene.dynamics->bearing_laws;
-  } catch (const InputError& error) {
-    throw InputError(with_place(scene, fmt::format("bearing: {}", error.what())));
-  }
+  about(scene, "bearing", [&] { stage.space = dynamics::space_about_equilibrium(spatial, inertias); });
+  stage.space->laws = scene.dynamics->bearing_laws;
   if (const auto& g = scene.own<SpaceInput>().gravity) stage.space->mass_place = {g->sun, g->ring, g->carrier};
   const auto& set = geometry.rings.at(ring).set;
   const auto& e = scene.errors;

@@ -52,7 +52,7 @@ std::vector<std::string> rigid_unasked(const Scene& scene) {
   for (const auto& [body, key] : {std::pair{dynamics::StageBody::Kind::planet, "supports.planet_N_per_m"},
                                   {dynamics::StageBody::Kind::carrier, "supports.carrier_N_per_m"},
                                   {dynamics::StageBody::Kind::ring, "supports.ring_N_per_m"}})
-    if (scene.own<SpaceInput>().has_radial_bearing(body)) std::erase(keys, key);
+    if (scene.own<SpaceInput>().has_radial_bearing(body, scene.stage.planets)) std::erase(keys, key);
   return keys;
 }
 

@@ -50,12 +50,39 @@ StaticTurn every_second(const StaticTurn& turn, bool places, std::size_t from) {
   return half;
 }
 
-/// A value of a turn, with its differences to others added up.
+struct Comparisons {
+  std::vector<OtherTurn> others;
+  std::vector<StaticTurn> places;  ///< one by one, where they follow each other smoothly around a turn
+};
+
+std::vector<StaticTurn> one_by_one(const StaticTurn& turn) {
+  std::vector<StaticTurn> list;
+  const auto phases = static_cast<std::ptrdiff_t>(turn.schedule.phases);
+  for (std::size_t i = 0; i < turn.schedule.cycles.size(); ++i) {
+    auto& place = list.emplace_back();
+    place.schedule = {{turn.schedule.cycles[i]}, turn.schedule.phases};
+    const auto first = turn.positions.begin() + static_cast<std::ptrdiff_t>(i) * phases;
+    place.positions.assign(first, first + phases);
+  }
+  return list;
+}
+
+/// What the largest value may be missed by between places: the sagitta of a parabola through it and its neighbours.
+double missed_between(const std::vector<StaticTurn>& places, const std::function<double(const StaticTurn&)>& value) {
+  const std::size_t count = places.size();
+  if (count < 3) return 0;
+  std::vector<double> values;
+  for (const auto& place : places) values.push_back(value(place));
+  const auto at = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  return std::abs(values[(at + count - 1) % count] - 2 * values[at] + values[(at + 1) % count]) / 8;
+}
+
+/// The largest value of a turn. Its error adds up the differences to others and what lies between the places.
 enum class Course { smooth, with_kinks };
-Figure with_error(const StaticTurn& turn, const std::vector<OtherTurn>& others,
+Figure with_error(const StaticTurn& turn, const Comparisons& compared,
                   const std::function<double(const StaticTurn&)>& value, Course course = Course::smooth) {
-  Figure figure{value(turn), 0};
-  for (const auto& other : others)
+  Figure figure{value(turn), missed_between(compared.places, value)};
+  for (const auto& other : compared.others)
     figure.error +=
         (course == Course::smooth ? other.weight : other.at_kinks) * std::abs(value(other.turn) - figure.value);
   return figure;
@@ -67,14 +94,14 @@ double largest(const StaticTurn& turn, const std::function<double(const StaticPo
   return most;
 }
 
-FigureSet all_figures(const StaticTurn& turn, const std::vector<OtherTurn>& others) {
+FigureSet all_figures(const StaticTurn& turn, const Comparisons& compared) {
   using dynamics::StaticFigures;
   FigureSet set;
   const auto add = [&](const char* name, StaticFigures::Mesh StaticFigures::*mesh, const char* key,
                        double StaticFigures::Mesh::*member, Course course) {
     set.set(fmt::format("{}_static_{}", name, key),
             with_error(
-                turn, others, [&](const StaticTurn& t) { return dynamics::figures_of(t).*mesh.*member; }, course));
+                turn, compared, [&](const StaticTurn& t) { return dynamics::figures_of(t).*mesh.*member; }, course));
   };
   for (const auto& [name, mesh] :
        {std::pair{"sun_planet", &StaticFigures::sun}, {"ring_planet", &StaticFigures::ring}}) {
@@ -92,13 +119,13 @@ FigureSet all_figures(const StaticTurn& turn, const std::vector<OtherTurn>& othe
 }
 
 std::vector<BearingStatics> all_bearings(const dynamics::SpatialStage& stage, const StaticTurn& turn,
-                                         const std::vector<OtherTurn>& others) {
+                                         const Comparisons& compared) {
   std::vector<BearingStatics> list;
   const auto made = dynamics::assemble(stage, 0);
   for (std::size_t b = 0; b < turn.bearing_names.size(); ++b) {
     BearingStatics bearing{turn.bearing_names[b], dynamics::name_of_body(made.bearings.at(b).body)};
     const auto most = [&](const std::function<double(const dynamics::StaticBearing&)>& value) {
-      return with_error(turn, others, [&](const StaticTurn& t) {
+      return with_error(turn, compared, [&](const StaticTurn& t) {
         return largest(t, [&](const StaticPosition& p) { return value(p.bearings.at(b)); });
       });
     };
@@ -235,11 +262,14 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
   const auto changed = [&](const StageFaces& with) {
     return dynamics::solve_turn(make(with), schedule, options.threads, &result.turn);
   };
-  std::vector<OtherTurn> others;
+  Comparisons compared;
+  auto& others = compared.others;
   // What lies between the positions of a smooth course falls with the square of their distance: half of them leave four
   // times as much. The other half has the largest value where one does not. Several periods at once are met by chance.
   constexpr double of_half = 1.0 / 3;
-  const double of_places = stage.plane.error_period() > 1 ? 1.0 : of_half;
+  const bool one_period = stage.plane.error_period() == 1;
+  const double of_places = one_period ? of_half : 1.0;
+  if (one_period) compared.places = one_by_one(result.turn);
   for (const std::size_t from : {0u, 1u}) {
     if (schedule.cycles.size() > 1) others.push_back({every_second(result.turn, true, from), of_places});
     if (schedule.phases > 1) others.push_back({every_second(result.turn, false, from), of_half});
@@ -265,10 +295,10 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
     stiffer.ring_factor += error;
     others.push_back({changed(stiffer)});
   }
-  result.figures = all_figures(result.turn, others);
-  result.bearings = all_bearings(stage, result.turn, others);
+  result.figures = all_figures(result.turn, compared);
+  result.bearings = all_bearings(stage, result.turn, compared);
   for (std::size_t b = 0; b < result.turn.body_names.size(); ++b)
-    result.tilt.push_back(with_error(result.turn, others, [&](const StaticTurn& t) {
+    result.tilt.push_back(with_error(result.turn, compared, [&](const StaticTurn& t) {
       return largest(t, [&](const StaticPosition& p) { return p.bodies.at(b).rotation.head<2>().norm(); });
     }));
   result.reasons = stage.reasons_for_space();

@@ -70,9 +70,15 @@ bool SpaceInput::has_bearing(Body body) const {
   return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
 }
 
-bool SpaceInput::has_radial_bearing(Body body) const {
-  return std::any_of(bearings.begin(), bearings.end(),
-                     [&](const auto& b) { return b.body == body && !b.planet && b.holds_radially(); });
+bool SpaceInput::has_radial_bearing(Body body, int planets) const {
+  const auto holds = [&](int planet) {
+    return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) {
+      return b.body == body && (!b.planet || *b.planet == planet) && b.holds_radially();
+    });
+  };
+  for (int planet = 1; planet <= planets; ++planet)
+    if (!holds(planet)) return false;
+  return true;
 }
 
 }  // namespace annulus::app

@@ -77,8 +77,8 @@ struct SpaceInput {
 
   [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity; }
   [[nodiscard]] bool has_bearing(BearingInput::Body body) const;
-  /// Whether a body, or every planet by one table, has a bearing that holds it radially.
-  [[nodiscard]] bool has_radial_bearing(BearingInput::Body body) const;
+  /// Whether a body, or each of the planets, has a bearing that holds it radially.
+  [[nodiscard]] bool has_radial_bearing(BearingInput::Body body, int planets = 1) const;
 };
 
 }  // namespace annulus::app

@@ -92,8 +92,7 @@ std::vector<Warning> space_result_warnings(const SpaceResults& results, double a
   if (const auto* mesh = most_tilted(results); mesh && end_load(*mesh) > 1 + accuracy) {
     auto text = fmt::format(
         "gears tilt: the force of mesh '{}' stands up to {:.2g} mm from the middle of its face, which is {:.4g} mm "
-        "wide. "
-        "Face load factors and root stresses of this run are those of gears that do not tilt{}",
+        "wide. Face load factors and root stresses of this run are those of gears that do not tilt{}",
         mesh->name, mesh->furthest() / units::mm, mesh->face_width / units::mm, remedy.empty() ? "" : "; " + remedy);
     if (end_load(*mesh) > 1 + fem::reduced_face_tilt)
       text += fmt::format(". Error bars contain the change of the face up to {:.2g} mm alone",

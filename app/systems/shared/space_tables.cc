@@ -83,7 +83,7 @@ Table bearing_table(const KindInSpace& of) {
   for (const auto& [name, member, meaning] :
        {std::tuple{
             "x_N_per_m", &BearingInput::x,
-            "Stiffness along x, which stands still on what the bearing stands on: towards planet 1 at time 0; of "
+            "Stiffness along x, which is fixed in the body on which the bearing stands: towards planet 1 at time 0; of "
             "planets radially outwards; of a pair from the pinion to the wheel."},
         {"y_N_per_m", &BearingInput::y, "Stiffness along y; of planets tangentially."}})
     stiffness(name, member, meaning)

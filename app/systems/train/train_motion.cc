@@ -30,7 +30,6 @@ struct Members<dynamics::TrainResponse> {
   }
 };
 ANNULUS_MEMBERS(app::TrainMode, frequency, body, element, kinetic, strain);
-ANNULUS_MEMBERS(app::PartInSpace, part, results);
 ANNULUS_MEMBERS(app::TrainMotion, response, figures, modes, shafts, space, time_series);
 ANNULUS_MEMBERS(dynamics::TrainShaft::End, part, body);
 ANNULUS_MEMBERS(dynamics::TrainShaft, name, from, to, stiffness, damping_ratio, half_backlash);
@@ -139,16 +138,15 @@ dynamics::TimeSeries series_of_part(const dynamics::TimeSeries& train, const std
   return series;
 }
 
-std::vector<PartInSpace> parts_in_space(const std::vector<WorkingPart>& parts,
-                                        const std::vector<const MeshResult*>& tables,
-                                        const dynamics::TrainResponse& response) {
-  std::vector<PartInSpace> list;
+std::vector<SpaceResults> parts_in_space(const std::vector<WorkingPart>& parts,
+                                         const std::vector<const MeshResult*>& tables,
+                                         const dynamics::TrainResponse& response) {
+  std::vector<SpaceResults> list;
   const auto own = tables_of_parts(parts, tables);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto model = parts[i].system->model(0, own[i]);
-    auto results =
-        space_results(model->in_space(series_of_part(response.series, parts[i].name)), response.window_cycles);
-    if (!results.bearings.empty()) list.push_back({parts[i].name, std::move(results)});
+    list.push_back(
+        space_results(model->in_space(series_of_part(response.series, parts[i].name)), response.window_cycles));
   }
   return list;
 }
@@ -179,6 +177,7 @@ TrainMotion motion_of(const Scene& scene, const std::vector<WorkingPart>& parts,
   motion.modes = modes_of(train);
   motion.shafts = shaft_courses(response);
   motion.space = parts_in_space(parts, tables, response);
+  for (auto& part : motion.space) part.table.round();
   motion.time_series = time_series_table(response.series, response.window_cycles).text();
   response.series = {};
   return motion;
@@ -262,11 +261,11 @@ std::unique_ptr<TrainRunResponse> train_response(const Scene& scene, const std::
   shafts.header = {{"annulus_version", version()}, {"inputs_id", id}};
   shafts.write(folder / "shafts.csv");
   write_file(folder / "time_series.csv", motion.time_series);
-  for (const auto& part : motion.space) {
-    auto table = part.results.table;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    auto table = motion.space[i].table;
+    if (table.columns.empty()) continue;
     table.header = shafts.header;
-    table.round();
-    table.write(folder / fmt::format("bearings_in_space_{}.csv", part.part));
+    table.write(folder / fmt::format("bearings_in_space_{}.csv", parts[i].name));
   }
   motion.time_series.clear();
   const auto& found = motion.response;

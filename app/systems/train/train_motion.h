@@ -19,20 +19,14 @@ struct TrainMode {
   double kinetic = 0, strain = 0;
 };
 
-/// What the bearings and meshes of a part in space do.
-struct PartInSpace {
-  std::string part{};
-  SpaceResults results{};
-};
-
 /// The motion of a train.
 struct TrainMotion {
   dynamics::TrainResponse response;  ///< without its time series
   FigureSet figures{};               ///< results, with the parts of their errors
   std::vector<TrainMode> modes{};
-  Csv shafts{};                      ///< torque over nominal torque of every shaft over the first cycles of the window
-  std::vector<PartInSpace> space{};  ///< of those parts that have bearings in space
-  std::string time_series{};         ///< the file of all motions and forces; empty once it is written
+  Csv shafts{};                       ///< torque over nominal torque of every shaft over the first cycles of the window
+  std::vector<SpaceResults> space{};  ///< of every part; empty where it has no bearings in space
+  std::string time_series{};          ///< the file of all motions and forces; empty once it is written
 };
 
 /// The answer of a train.
@@ -52,7 +46,7 @@ struct TrainRunResponse final : RunResponse {
                                                                const RunOptions& options);
 
 // train_report.cc
-[[nodiscard]] Json train_summary(const SystemRun& run);
+[[nodiscard]] Json train_summary(const SystemRun& run, const std::vector<WorkingPart>& parts);
 [[nodiscard]] Page train_report(const SystemRun& run, const std::vector<WorkingPart>& parts);
 
 }  // namespace annulus::app

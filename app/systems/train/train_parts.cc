@@ -96,7 +96,8 @@ std::vector<WorkingPart> working_parts(const Scene& scene) {
 
 std::vector<dynamics::ShaftEnd> shaft_ends(const GearSystem& system) {
   std::vector<dynamics::ShaftEnd> ends;
-  for (const auto& body : system.turning_bodies()) ends.push_back({body.name, body.radius, "", body.speed});
+  for (const auto& body : system.turning_bodies())
+    ends.push_back({body.name, body.radius, "", body.speed, dynamics::force_at(body.radius, body.torque)});
   return ends;
 }
 

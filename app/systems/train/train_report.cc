@@ -75,16 +75,16 @@ Section modes_section(const TrainMotion& motion) {
           paragraph("Undamped modes of the whole train with the mean mesh stiffness.") + table};
 }
 
-Section space_section(const TrainMotion& motion) {
+Section space_section(const TrainMotion& motion, const std::vector<WorkingPart>& parts) {
   Section section{"bearings-and-faces", "Bearings and faces"};
-  for (const auto& part : motion.space)
-    section.blocks += space_blocks(part.results, fmt::format(" of '{}'", part.part));
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    section.blocks += space_blocks(motion.space[i], fmt::format(" of '{}'", parts[i].name));
   return section;
 }
 
 }  // namespace
 
-Json train_summary(const SystemRun& run) {
+Json train_summary(const SystemRun& run, const std::vector<WorkingPart>& parts) {
   Json json = Json::object();
   if (const auto* motion = motion_of(run)) {
     const auto& r = motion->response;
@@ -100,7 +100,8 @@ Json train_summary(const SystemRun& run) {
                                 {"dynamic_factor", figure(mesh.dynamic_factor)},
                                 {"contact_loss", figure(mesh.contact_loss)}});
     json["shafts"] = to_json(r.shafts);
-    for (const auto& part : motion->space) add_json(json["parts"][part.part], part.results);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (const auto& space = motion->space[i]; !space.bearings.empty()) add_json(json["parts"][parts[i].name], space);
     json["motions"] = to_json(r.motions);
     for (const auto& mode : motion->modes)
       json["natural_frequencies"].push_back({{"frequency_Hz", mode.frequency},
@@ -126,7 +127,8 @@ Page train_report(const SystemRun& run, const std::vector<WorkingPart>& parts) {
   std::vector<Section> sections;
   Blocks checks;
   if (const auto* motion = motion_of(run)) {
-    sections = {meshes_section(*motion), courses_section(*motion), space_section(*motion), modes_section(*motion)};
+    sections = {meshes_section(*motion), courses_section(*motion), space_section(*motion, parts),
+                modes_section(*motion)};
     checks = solution_checks({{"train", &motion->response}});
   }
   sections.push_back({"stiffness", "Mesh stiffness", solved.empty() ? Blocks() : stiffness_blocks(solved)});

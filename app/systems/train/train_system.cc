@@ -106,19 +106,19 @@ class TrainSystem final : public GearSystem {
     std::vector<Warning> list;
     const auto add = [&](std::vector<Warning> more) { std::move(more.begin(), more.end(), std::back_inserter(list)); };
     const auto tables = tables_of_parts(parts(), run.tables_of(variant));
-    for (const auto& [name, results] : static_cast<const TrainRunResponse&>(*run.responses.at(variant)).motion.space) {
-      add(space_result_warnings(results, scene().accuracy, name, ""));
-      for (std::size_t i = 0; i < parts().size(); ++i) {
-        if (parts()[i].name != name) continue;
-        std::vector<std::pair<std::string, const MeshResult*>> meshes;
-        for (const auto* table : tables[i]) meshes.emplace_back(table->model.label(), table);
-        add(face_warnings(meshes, scene().accuracy, name));
-      }
+    const auto& space = static_cast<const TrainRunResponse&>(*run.responses.at(variant)).motion.space;
+    for (std::size_t i = 0; i < parts().size(); ++i) {
+      if (space[i].bearings.empty()) continue;
+      const auto& name = parts()[i].name;
+      add(space_result_warnings(space[i], scene().accuracy, name, ""));
+      std::vector<std::pair<std::string, const MeshResult*>> meshes;
+      for (const auto* table : tables[i]) meshes.emplace_back(table->model.label(), table);
+      add(face_warnings(meshes, scene().accuracy, name));
     }
     return list;
   }
 
-  [[nodiscard]] Json summary(const SystemRun& run) const override { return train_summary(run); }
+  [[nodiscard]] Json summary(const SystemRun& run) const override { return train_summary(run, parts()); }
   [[nodiscard]] Page report(const SystemRun& run) const override { return train_report(run, parts()); }
 
  protected:

@@ -117,8 +117,10 @@ double HelicalPair::wheel_speed() const { return pinion_speed * pinion.teeth / w
 double HelicalPair::wheel_torque() const { return pinion_torque * wheel.radius / pinion.radius; }
 
 std::vector<ShaftEnd> HelicalPair::shaft_ends() const {
-  return {{"pinion", pinion.radius, "", pinion_speed},
-          {"wheel", wheel.radius, "", wheel.teeth > 0 ? wheel_speed() : 0}};
+  // Equal on both, which is T_2/r_2 = T_1/r_1 balanced to rounding: a pair free to turn does not creep away.
+  const double load = force_at(pinion.radius, pinion_torque);
+  return {{"pinion", pinion.radius, "", pinion_speed, load},
+          {"wheel", wheel.radius, "", wheel.teeth > 0 ? wheel_speed() : 0, load}};
 }
 
 double HelicalPair::mesh_frequency() const { return pinion.teeth * pinion_speed / (2 * std::numbers::pi); }
@@ -229,11 +231,10 @@ LumpedSystem assemble(const HelicalPair& pair) {
       add_bearing_law(builder, pair.space->bearings[i], motions[i], pair.pinion.radius);
   }
 
-  // Equal on both, which is T_2/r_2 = T_1/r_1 balanced to rounding: a pair free to turn does not creep away.
-  const double force = pair.pinion_torque / pair.pinion.radius;
-  builder.add_load(pinion.u, force);
-  builder.add_load(wheel.u, force);
-  return with_rotors(builder.build(), pair.rotors, pair.shaft_ends());
+  const auto ends = pair.shaft_ends();
+  builder.add_load(pinion.u, ends.front().load);
+  builder.add_load(wheel.u, ends.back().load);
+  return with_rotors(builder.build(), pair.rotors, ends);
 }
 
 std::vector<std::vector<LinearForm>> bearing_coordinates(const HelicalPair& pair) {

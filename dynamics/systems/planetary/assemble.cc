@@ -332,14 +332,12 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   for (int n = 0; n < stage.planets(); ++n)
     if (!stage.space && stage.planet_bearing(n).play > 0) add_bearing_with_play(builder, stage, bodies, n);
 
-  // The loads from virtual work equal T_c / a with T_c = T_s (1 + z_r/z_s), and T_r / r_r. They are balanced to
-  // rounding, so that a stage free to turn does not creep away.
-  using geometry::StageMember;
-  const double sun_force = stage.sun_torque / stage.sun.radius;
-  if (stage.held != StageMember::sun) builder.add_load(sun.u, sun_force);
-  if (stage.held != StageMember::carrier) builder.add_load(carrier.u, -sun_force * (std::cos(as) + std::cos(ar)));
-  if (stage.held != StageMember::ring) builder.add_load(ring.u, sun_force);
-  return with_rotors(builder.build(), stage.rotors, stage.shaft_ends());
+  const auto ends = stage.shaft_ends();
+  for (const auto& [name, form] : {std::pair{"sun", &sun.u}, {"ring", &ring.u}, {"carrier", &carrier.u}}) {
+    const auto end = std::find_if(ends.begin(), ends.end(), [&](const auto& e) { return e.name == name; });
+    if (end->load != 0) builder.add_load(*form, end->load);
+  }
+  return with_rotors(builder.build(), stage.rotors, ends);
 }
 
 }  // namespace annulus::dynamics

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "core/errors.h"
@@ -203,11 +204,15 @@ int PlanetaryStage::error_period() const {
 std::vector<ShaftEnd> PlanetaryStage::shaft_ends() const {
   using geometry::StageMember;
   std::vector<ShaftEnd> ends{{"planet", planet.radius, "planets move around the axis"}};
-  for (const auto& [member, speed] : {std::pair{StageMember::sun, sun_teeth > 0 ? sun_speed() : 0.0},
-                                      {StageMember::ring, ring_speed},
-                                      {StageMember::carrier, carrier_speed}})
-    ends.push_back(
-        {to_string(member), body(member).radius, body(member).torsional_support == rigid ? "it is held" : "", speed});
+  // The loads from virtual work equal T_c / a with T_c = T_s (1 + z_r/z_s), and T_r / r_r. They are balanced to
+  // rounding, so that a stage free to turn does not creep away.
+  const double force = force_at(sun.radius, sun_torque);
+  const double of_carrier = -force * (std::cos(sun_working_angle) + std::cos(ring_working_angle));
+  for (const auto& [member, speed, load] : {std::tuple{StageMember::sun, sun_teeth > 0 ? sun_speed() : 0.0, force},
+                                            {StageMember::ring, ring_speed, force},
+                                            {StageMember::carrier, carrier_speed, of_carrier}})
+    ends.push_back({to_string(member), body(member).radius, body(member).torsional_support == rigid ? "it is held" : "",
+                    speed, held == member ? 0.0 : load});
   return ends;
 }
 

@@ -13,8 +13,8 @@ namespace annulus::dynamics {
 
 namespace {
 
-/// Places of one phase of which each starts from the one before. Their number is no matter of threads: results stay the
-/// same to the last digit.
+/// Places of one phase of which each starts from the one before. It does not depend on the number of threads: results
+/// stay the same to the last digit.
 constexpr std::size_t run_of_places = 8;
 
 /// `loss`: m, of its approach through the other meshes.

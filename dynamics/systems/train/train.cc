@@ -33,7 +33,7 @@ struct Place {
   const TrainPart* part;
   const ShaftEnd* end;
   [[nodiscard]] int dof() const { return part->lumped.system.find(end->name + "_u"); }
-  [[nodiscard]] double load() const { return part->lumped.system.load()[dof()]; }
+  [[nodiscard]] double load() const { return end->load; }
   [[nodiscard]] double torque() const { return load() * end->radius; }
   [[nodiscard]] double mass() const { return part->lumped.system.mass()(dof(), dof()); }
 };

@@ -79,9 +79,13 @@ void TwoKVStage::check() const {
 
 std::vector<ShaftEnd> TwoKVStage::shaft_ends() const {
   const auto refusal = [](double support) { return support == rigid ? "it is held" : ""; };
-  std::vector<ShaftEnd> ends{
-      {"input", sun_base_radius(), refusal(input_support), sun_teeth > 0 ? output_speed * ratio() : 0},
-      {"output", crank_circle_radius(), refusal(output_support), output_speed}};
+  const double sun = sun_base_radius(), crank = crank_circle_radius();
+  std::vector<ShaftEnd> ends{{"input", sun, refusal(input_support)},
+                             {"output", crank, refusal(output_support), output_speed, force_at(crank, -output_torque)}};
+  if (sun_teeth > 0) {
+    ends[0].speed = output_speed * ratio();
+    ends[0].load = force_at(ratio() * sun, output_torque);
+  }
   for (const char* inner : {"sun", "planet", "crank", "arc"}) ends.push_back({inner, 0, "it is inside the reducer"});
   return ends;
 }

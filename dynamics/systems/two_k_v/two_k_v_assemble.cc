@@ -149,8 +149,9 @@ class TwoKVAssembler {
   }
 
   void add_loads() {
-    builder_.add_load(input_.u, stage_.output_torque / (stage_.ratio() * input_.radius));
-    builder_.add_load(output_.u, -stage_.output_torque / output_.radius);
+    const auto ends = stage_.shaft_ends();
+    builder_.add_load(input_.u, ends[0].load);
+    builder_.add_load(output_.u, ends[1].load);
   }
 
   /// phi_i

@@ -59,11 +59,12 @@ Section pair_motion_section(const PairRunResult& result) {
   pictures.emplace_back(line_plot(
       {.title = "Spectrum of the mesh force", .x_label = "multiple of the mesh frequency", .y_label = "kN"}, spectrum,
       {.x = "mesh_order", .y_scale = 1e-3}, {{.column = "mesh_force_N", .style = Series::Style::bars}}));
-  section.blocks = Pictures{pictures,
-                            {},
-                            phrase("The first mesh cycles of the evaluated window at the operating point. The whole "
-                                   "window of {} mesh cycles: {}.",
-                                   f.window_cycles, code("dynamics/time_series.csv"))};
+  section.blocks =
+      Pictures{pictures,
+               {},
+               phrase("The first mesh cycles of the evaluated window of {} at the operating point. More of "
+                      "them: {}.",
+                      f.window_cycles, code("dynamics/time_series.csv"))};
   section.blocks += space_blocks(result.response->space, "");
   return section;
 }
