@@ -12,11 +12,9 @@ namespace annulus {
 struct FaceShape {
   std::vector<double> slope, curvature;
   std::vector<double> gap_slope;  ///< m, normal to the flanks
-  /// Largest deviation of force and moment / half the face width from those of the gears, relative to the force, while
-  /// one end of the face approaches by half as much again as the middle.
-  double error_relative = 0;
-  /// The same with the mean stiffness and moment between these tilts to either side, instead of those without tilt.
-  /// What a result changes by with it is what the straight law leaves open. Null: not known.
+  /// The same with the mean stiffness and moment between two tilts, where one end or the other approaches by half as
+  /// much again as the middle, instead of those without tilt. What a result changes by with it is what the straight law
+  /// leaves open. Null: not known.
   std::shared_ptr<const FaceShape> tilted{};
 };
 

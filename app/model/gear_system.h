@@ -9,6 +9,7 @@
 #include "app/model/drawing_data.h"
 #include "app/model/lumped_model.h"
 #include "app/model/mesh_result.h"
+#include "app/model/moving_faces.h"
 #include "app/plan/cost_plan.h"
 #include "app/plan/mesh_model.h"
 #include "app/plan/warning.h"
@@ -104,6 +105,12 @@ class GearSystem {
   /// The lumped model with rough stiffnesses, before anything is solved, of a system with such bodies: for the cost of
   /// a train.
   [[nodiscard]] virtual std::optional<dynamics::LumpedCase> rough_lumped() const { return std::nullopt; }
+  /// The faces of a lumped model in which LumpedModel::in_space() finds something. Tables are referred to.
+  [[nodiscard]] virtual MovingFaces moving_faces(std::size_t /*variant*/,
+                                                 const std::vector<const MeshResult*>& /*tables*/,
+                                                 const RunOptions& /*options*/) const {
+    return {};
+  }
 
   /// Whether the motions of a sweep can be found in this way.
   [[nodiscard]] virtual bool offers(SweepDirection direction) const { return direction == SweepDirection::each; }

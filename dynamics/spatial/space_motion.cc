@@ -71,7 +71,8 @@ double end_of_table(const SpaceSupports& supports, const LinearBearing& bearing)
 
 }  // namespace
 
-SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& system, const TimeSeries& series) {
+SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& system, const LumpedSystem& lumped,
+                            const TimeSeries& series) {
   SpaceMotion result;
   const Eigen::Index times = series.time.size(), meshes = std::ssize(system.faces);
   require(series.force.rows() >= 2 * meshes, fmt::format("{} forces of {} meshes", series.force.rows(), meshes));
@@ -119,9 +120,16 @@ SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& sy
   }
   for (Eigen::Index m = 0; m < meshes; ++m) {
     const auto& face = *system.faces[static_cast<std::size_t>(m)];
+    const auto& element = lumped.meshes()[static_cast<std::size_t>(m)];
     const auto force = series.force.row(m), tilt = series.force.row(meshes + m);
-    SpaceMotion::Mesh mesh{series.meshes[static_cast<std::size_t>(m)], face.width, face.shape != nullptr, not_known,
-                           Eigen::VectorXd(times)};
+    SpaceMotion::Mesh mesh{.name = series.meshes[static_cast<std::size_t>(m)],
+                           .face_width = face.width,
+                           .solid_face = face.shape != nullptr,
+                           .mean_place = not_known,
+                           .cycles = element.frequency * series.time.array() + element.phase_offset,
+                           .force = force.transpose(),
+                           .tilt = series.displacement.transpose() * lumped.mesh_vector(meshes + m),
+                           .place = Eigen::VectorXd(times)};
     const double size = force.cwiseAbs().mean();
     if (size > 0) mesh.mean_place = face.width / 2 * tilt.sum() / force.sum();
     for (Eigen::Index t = 0; t < times; ++t)

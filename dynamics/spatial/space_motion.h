@@ -28,6 +28,9 @@ struct SpaceMotion {
     double face_width = 0;    ///< m
     bool solid_face = false;  ///< of solid gears (SpreadFace::shape)
     double mean_place = 0;    ///< m, of the mean force and moment
+    Eigen::VectorXd cycles;   ///< mesh cycles at which the excitation is read
+    Eigen::VectorXd force;    ///< N, of the mesh
+    Eigen::VectorXd tilt;     ///< m, by which the end of the face approaches further than its middle
     /// m, z of the resultant from the middle of the common face; not known of light forces.
     Eigen::VectorXd place;
   };
@@ -44,8 +47,9 @@ struct SpaceSystem {
   double carrier_speed = 0;                         ///< rad/s
   std::vector<const SpreadFace*> faces{};           ///< of each mesh
 };
-/// `series`: forces of all meshes, then those of their tilts (spread_over_face()), then others.
+/// `lumped`: with the DOFs of the series. Its meshes, and the forces of the series, are those of the faces, then those
+/// of their tilts (spread_over_face()), then others.
 [[nodiscard]] SpaceMotion motion_in_space(const SpaceSupports& supports, const SpaceSystem& system,
-                                          const TimeSeries& series);
+                                          const LumpedSystem& lumped, const TimeSeries& series);
 
 }  // namespace annulus::dynamics

@@ -72,6 +72,9 @@ BOOST_AUTO_TEST_CASE(slow_stage_shares_the_load_as_in_the_statics) {
   const auto summary = run(folder, scene);
   const auto statics = solved(folder, scene);
   compare_sharing(record, "load sharing of a stage with a pin beside its place", summary, statics, 1e-3, "inertia");
+  for (const std::string mesh : {"sun_planet", "ring_planet"})
+    record.close("K_Hβ of a mesh cycle", "", face_load_factor_in_motion(summary, mesh),
+                 result(statics, mesh + "_static_face_load_factor"), 2e-3, "places on the face, inertia");
   const auto forces = table(folder, "mesh_forces.csv");
   for (const std::string mesh : {"sun_planet1", "sun_planet2", "ring_planet3"})
     record.near("place of the mesh force along the face", "m",
@@ -89,6 +92,12 @@ BOOST_AUTO_TEST_CASE(slow_stage_shares_the_load_as_in_the_statics) {
   const auto csv = Csv::read(folder.path() / "out/held/dynamics/bearings_in_space.csv");
   BOOST_TEST(csv.rows[0][csv.column("planet1_upwind_row_radial_max_N")] > 1e5);
   BOOST_TEST(read_file(folder.path() / "out/report.html").find("planet1_upwind_row") != std::string::npos);
+  const auto loads = Csv::read(folder.path() / "out/held/dynamics/face_loads.csv");
+  double sum = 0;  // trapezoidal rule over equal stretches
+  for (std::size_t i = 0; i + 1 < loads.rows.size(); ++i)
+    sum += (loads.rows[i][1] + loads.rows[i + 1][1]) / 2 * (loads.rows[i + 1][0] - loads.rows[i][0]);
+  BOOST_TEST(loads.columns[1] == "sun_planet1_mean_N_per_m");
+  BOOST_TEST(sum > 0);
 }
 
 // The carrier turns past weight and a rotor's moment: load sharing over its revolution is that of the statics.

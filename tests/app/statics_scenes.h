@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <string>
 
@@ -104,6 +105,14 @@ inline Json solved(const test::TemporaryFolder& folder, const std::string& scene
 
 inline double result(const Json& json, const std::string& key) {
   return json.at("rings").at("held").at("results").at(key).at("value").get<double>();
+}
+
+/// The largest K_Hβ of the meshes of a kind in the motion of a run.
+inline double face_load_factor_in_motion(const Json& summary, const std::string& kind) {
+  double most = 0;
+  for (const auto& [mesh, face] : summary.at("rings").at("held").at("faces_in_motion").items())
+    if (mesh.starts_with(kind)) most = std::max(most, face.at("face_load_factor").get<double>());
+  return most;
 }
 
 inline Csv table(const test::TemporaryFolder& folder, const std::string& name) {

@@ -77,6 +77,9 @@ BOOST_AUTO_TEST_CASE(slow_motion_has_the_faces_of_the_statics) {
   for (const std::string mesh : {"sun_planet", "ring_planet"})
     record.near("load sharing", "", held.at("load_sharing").at(mesh).at("averaged").at("value").get<double>(),
                 result(statics, mesh + "_static_load_sharing"), 5e-3, "linear in load and tilt");
+  for (const std::string mesh : {"sun_planet", "ring_planet"})
+    record.close("K_Hβ of a mesh cycle", "", face_load_factor_in_motion(summary, mesh),
+                 result(statics, mesh + "_static_face_load_factor"), 1e-2, "linear in load and tilt; phases");
   const auto forces = table(folder, "mesh_forces.csv");
   double largest_swing = 0;
   for (const std::string mesh : {"sun_planet1", "sun_planet2", "sun_planet3", "ring_planet1", "ring_planet3"}) {

@@ -154,7 +154,6 @@ BOOST_AUTO_TEST_CASE(reduced_face_has_force_and_moment_of_the_gears) {
     const auto face = face_of(problem);
     constexpr int phases = 4, places = 1000;
     const auto shape = annulus::fem::reduced_face(*face, nominal_load, phases, 2);
-    BOOST_TEST(shape.error_relative < 0.2);
     double least = 1, most = -1;
     for (int p = 0; p < phases; ++p) {
       const auto law = face->at(static_cast<double>(p) / phases, nominal_load);

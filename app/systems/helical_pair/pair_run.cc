@@ -8,6 +8,7 @@
 #include "app/results/content_id.h"
 #include "app/run/pipeline.h"
 #include "app/systems/helical_pair/pair_lumped_model.h"
+#include "app/systems/helical_pair/pair_space.h"
 #include "core/errors.h"
 #include "core/log.h"
 #include "core/parallel.h"
@@ -161,7 +162,8 @@ void save_shares(const std::vector<ShareRow>& rows, const std::filesystem::path&
 std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshResult& mesh, const RunOptions& options) {
   const auto folder = options.out / "dynamics";
   std::filesystem::create_directories(folder);
-  const auto lumped = lumped_pair(scene, make_pair_geometry(scene), mesh, pair_errors(scene).amplitude);
+  const auto geometry = make_pair_geometry(scene);
+  const auto lumped = lumped_pair(scene, geometry, mesh, pair_errors(scene).amplitude);
   const auto& pair = lumped.pair;
   auto simulation = pair_simulation(scene);
   simulation.other_motions.threads = options.threads;
@@ -173,6 +175,8 @@ std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshRes
   response.series = series_table(pair, f);
   response.spectrum = spectrum_table(f);
   response.space = space_results(dynamics::space_motion(pair, f.series), f.window_cycles);
+  if (pair.space)
+    add_face_loads(response.space, moving_pair_face(scene, geometry, pair, mesh, options), options.threads);
   f.series = {};
   result->figures = carried_pair_errors(lumped, simulation, f);
   result->motions = f.motions;
@@ -182,6 +186,7 @@ std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshRes
   write_table(response.spectrum, id, folder / "spectrum.csv");
   write_table(modes_table_of(response.modes), id, folder / "modes.csv");
   if (!response.space.bearings.empty()) write_table(response.space.table, id, folder / "bearings_in_space.csv");
+  if (!response.space.faces.empty()) write_table(face_loads_table(response.space), id, folder / "face_loads.csv");
   log::info(fmt::format("dynamics: {} mesh cycles integrated, {}", f.total_cycles,
                         f.steady ? "periodic steady state" : "no periodic steady state"));
   if (!scene.transmission_error) return result;

@@ -14,6 +14,7 @@
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/space_input.h"
 #include "app/systems/shared/tilt_inertia.h"
+#include "dynamics/spatial/even_face.h"
 #include "dynamics/systems/helical_pair/spatial_pair.h"
 
 namespace annulus::app {
@@ -98,6 +99,18 @@ void put_in_space(dynamics::HelicalPair& pair, const Scene& scene, const PairGeo
   pair.space->laws = scene.dynamics->bearing_laws;
   pair.space->mass_place_pinion = gravity.pinion;
   pair.space->mass_place_wheel = gravity.wheel;
+}
+
+MovingFaces moving_pair_face(const Scene& scene, const PairGeometry& geometry, const dynamics::HelicalPair& pair,
+                             const MeshResult& mesh, const RunOptions& options) {
+  if (mesh.face) {
+    const auto solid = solid_face(mesh, options);
+    const double force = geometry.transverse_force / std::cos(geometry.base_helix_angle);
+    return {[=](std::size_t, double cycles) { return solid->at(cycles, force); }};
+  }
+  const auto even = even_stations(geometry.gears, scene.pinion_wheel, scene.errors.pinion_wheel_misalignment);
+  const auto law = std::make_shared<const dynamics::EvenFace>(dynamics::mean_stiffness(pair.mesh), even.at, even.gap);
+  return {[law](std::size_t, double) { return law; }};
 }
 
 std::vector<DofPlan> pair_dofs_in_space(const Scene& scene, const PairGeometry& geometry, std::vector<DofPlan> plane) {

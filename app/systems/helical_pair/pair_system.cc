@@ -54,6 +54,11 @@ class PairSystem final : public GearSystem {
     return pair_lumped_model(lumped(tables));
   }
 
+  [[nodiscard]] MovingFaces moving_faces(std::size_t /*variant*/, const std::vector<const MeshResult*>& tables,
+                                         const RunOptions& options) const override {
+    return moving_pair_face(scene(), make_pair_geometry(scene()), lumped(tables).pair, *tables.front(), options);
+  }
+
   [[nodiscard]] std::vector<PlannedResponse> responses() const override { return pair_responses(scene()); }
 
   void save_inputs(const SystemRun& run, const RunOptions& options) const override {
@@ -112,7 +117,7 @@ class PairSystem final : public GearSystem {
 
   [[nodiscard]] std::vector<Warning> response_warnings(const SystemRun& run, std::size_t /*variant*/) const override {
     if (!pair_in_space(scene())) return {};
-    auto list = face_warnings({{"mesh", &run.tables.front()}}, scene().accuracy, "");
+    auto list = face_warnings({{"mesh", &run.tables.front()}}, "");
     const auto more = space_result_warnings(PairRunResult(run).response->space, scene().accuracy, "", "");
     list.insert(list.end(), more.begin(), more.end());
     return list;

@@ -113,7 +113,11 @@ std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeomet
   simulation.other_motions.threads = options.threads;
   const auto id = response_id(stage, simulation, sun_mesh, ring_mesh);
   auto [response, reused] = cached_value(options.store.get(), cached_responses, id, [&] {
-    return simulate_stage(stage, simulation, {make, sun_mesh, ring_mesh});
+    auto found = simulate_stage(stage, simulation, {make, sun_mesh, ring_mesh});
+    if (stage.space)
+      add_face_loads(found.motion.space, moving_stage_faces(scene, geometry, ring, sun_mesh, ring_mesh, options),
+                     options.threads);
+    return found;
   });
   note_reuse(options, fmt::format("dynamics of '{}'", name), reused);
   save(response, id, options.out / name / "dynamics");

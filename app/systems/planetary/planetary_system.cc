@@ -111,6 +111,11 @@ class PlanetarySystem final : public GearSystem {
     return planetary_model(scene(), geometry(), ring, *tables.front(), *tables.back());
   }
 
+  [[nodiscard]] MovingFaces moving_faces(std::size_t ring, const std::vector<const MeshResult*>& tables,
+                                         const RunOptions& options) const override {
+    return moving_stage_faces(scene(), geometry(), ring, *tables.front(), *tables.back(), options);
+  }
+
   [[nodiscard]] std::vector<PlannedResponse> responses() const override {
     return planetary_responses(scene(), geometry(), meshes());
   }
@@ -154,8 +159,7 @@ class PlanetarySystem final : public GearSystem {
     const auto& name = scene().rings.at(ring).name;
     auto list = stage_warnings(response.stage.figures, name);
     if (moves_in_space(scene())) {
-      auto more = face_warnings({{"sun mesh", &run.tables.front()}, {"ring mesh", &run.tables.at(ring + 1)}},
-                                scene().accuracy, name);
+      auto more = face_warnings({{"sun mesh", &run.tables.front()}, {"ring mesh", &run.tables.at(ring + 1)}}, name);
       std::move(more.begin(), more.end(), std::back_inserter(list));
       auto of_bearings = space_result_warnings(response.stage.motion.space, scene().accuracy, name,
                                                "annulus statics has K_Hβ of gears that tilt");

@@ -89,6 +89,20 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
   stage.planet_bearings.clear();
 }
 
+MovingFaces moving_stage_faces(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                               const MeshResult& sun_mesh, const MeshResult& ring_mesh, const RunOptions& options) {
+  StageFaces faces;
+  if (sun_mesh.face) faces.sun = solid_face(sun_mesh, options);
+  if (ring_mesh.face) faces.ring = solid_face(ring_mesh, options);
+  const auto stage = std::make_shared<const dynamics::SpatialStage>(
+      make_spatial_stage(scene, geometry, ring, sun_mesh, ring_mesh, faces));
+  const auto law = [stage](std::size_t mesh, double cycles) {
+    const bool of_sun = mesh < static_cast<std::size_t>(stage->planets());
+    return (of_sun ? stage->sun_face : stage->ring_face).law(cycles, dynamics::StageFace::Flank::driving);
+  };
+  return {law, std::cos(stage->base_helix_angle)};
+}
+
 std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeometry& geometry) {
   const auto& space = scene.own<SpaceInput>();
   std::vector<Warning> list;

@@ -146,22 +146,14 @@ StageFace bare_face(const Scene& scene, const geometry::GearPair& pair, const Me
   return face;
 }
 
-std::vector<double> stations_of(const geometry::GearPair& pair, int stretches) {
-  const double width = pair.common_face().width;
-  std::vector<double> stations;
-  for (int i = 0; i <= stretches; ++i) stations.push_back(width * (static_cast<double>(i) / stretches - 0.5));
-  return stations;
-}
-
 /// Its law: solid gears, or a whole mesh that is spread evenly; back flanks always so.
 void set_law(StageFace& face, const geometry::GearPair& pair, const MeshInput& input,
              const dynamics::MeshExcitation& excitation, double misalignment, double factor, int stretches,
              const std::shared_ptr<const fem::SolidFace>& solid, double mesh_force) {
   const double c = std::cos(pair.pinion().base_helix_angle());
-  const auto stations = stations_of(pair, stretches);
-  const auto gaps =
-      gaps_in_table(input) ? std::vector<double>(stations.size(), 0.0) : gaps_along(pair, misalignment, stations);
-  face.law = [=](double phase, StageFace::Flank flank) -> std::shared_ptr<const FaceLaw> {
+  const auto [stations, gaps] = even_stations(pair, input, misalignment, stretches);
+  face.law = [=, stations = stations, gaps = gaps](double phase,
+                                                   StageFace::Flank flank) -> std::shared_ptr<const FaceLaw> {
     const bool back = flank == StageFace::Flank::back;
     if (solid && !back) return solid->at(phase, mesh_force / c);
     auto [law, stiffness] = whole_mesh(excitation, phase, c, factor, back);

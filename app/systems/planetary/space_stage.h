@@ -9,14 +9,12 @@
 #include "app/plan/gear_geometry.h"
 #include "app/plan/warning.h"
 #include "app/scene/scene.h"
+#include "app/systems/shared/faces.h"
 #include "dynamics/systems/planetary/spatial_stage.h"
 #include "fem/solid_face.h"
 
 /// A planetary stage of a scene in three dimensions.
 namespace annulus::app {
-
-/// Stretches of a face that is no solid one, between whose ends the load is found.
-inline constexpr int face_stretches = 24;
 
 /// How the meshes of a stage are known along their faces.
 struct StageFaces {

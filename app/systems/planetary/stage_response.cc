@@ -8,6 +8,7 @@
 #include "app/model/time_series.h"
 #include "app/results/content_id.h"
 #include "app/systems/planetary/alternative_stages.h"
+#include "app/systems/shared/face_loads.h"
 #include "core/errors.h"
 #include "core/file_guard.h"
 #include "core/files.h"
@@ -155,14 +156,16 @@ StageResponse simulate_stage(const dynamics::PlanetaryStage& stage, const dynami
 void save(const StageResponse& response, const std::string& id, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const std::vector<std::pair<std::string, std::string>> header = {{"annulus_version", version()}, {"inputs_id", id}};
-  for_each_stage_table(response, [&](const char* name, Csv table) {
+  const auto write = [&](const char* name, Csv table) {
     if (table.columns.empty()) {  // of another kind of stage
       remove_file(folder / name);
       return;
     }
     table.header = header;
     table.write(folder / name);
-  });
+  };
+  for_each_stage_table(response, write);
+  write("face_loads.csv", face_loads_table(response.motion.space));
   std::string lines;
   for (const auto& [key, value] : header) lines += fmt::format("# {}: {}\n", key, value);
   write_file(folder / "modes.csv", lines + modes_csv(response.modes));

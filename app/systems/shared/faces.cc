@@ -37,6 +37,14 @@ double place_of_face(const geometry::GearPair& pair) {
   return std::abs(middle) < place_rounding * common.width ? 0 : middle;
 }
 
+EvenStations even_stations(const geometry::GearPair& pair, const MeshInput& input, double misalignment, int stretches) {
+  EvenStations even;
+  const double width = pair.common_face().width;
+  for (int i = 0; i <= stretches; ++i) even.at.push_back(width * (static_cast<double>(i) / stretches - 0.5));
+  even.gap = gaps_in_table(input) ? std::vector<double>(even.at.size(), 0.0) : gaps_along(pair, misalignment, even.at);
+  return even;
+}
+
 double nominal_mesh_stiffness(const geometry::GearPair& pair) { return 20e9 * pair.common_face().width; }
 
 bool gaps_in_table(const MeshInput& input) { return input.stiffness == StiffnessShape::computed; }
@@ -103,7 +111,7 @@ std::shared_ptr<const FaceShape> face_in_motion(const MeshResult& mesh, double m
 }
 
 std::vector<Warning> face_warnings(const std::vector<std::pair<std::string, const MeshResult*>>& meshes,
-                                   double accuracy, const std::string& ring) {
+                                   const std::string& ring) {
   std::vector<Warning> list;
   if (std::any_of(meshes.begin(), meshes.end(),
                   [](const auto& mesh) { return mesh.second->model.computed() && !mesh.second->face; }))
@@ -116,13 +124,6 @@ std::vector<Warning> face_warnings(const std::vector<std::pair<std::string, cons
                        "of the approach already takes one end of the face out of contact",
                        name),
            ring});
-    if (mesh->face && mesh->face->error_relative > accuracy)
-      list.push_back({"face_reduced", Severity::warning,
-                      fmt::format("the dynamics has the {} along its face as straight about its load. Where one end "
-                                  "of the face approaches by half as much again as the middle, force and moment (over "
-                                  "half the face width) deviate by {:.2g} % of the force from those of the solid gears",
-                                  name, 100 * mesh->face->error_relative),
-                      ring});
   }
   return list;
 }

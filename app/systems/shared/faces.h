@@ -25,6 +25,15 @@ inline constexpr double place_rounding = 1e-9;  ///< of widths and offsets in mi
 /// A computed table has its modifications and misalignment in its stiffness.
 [[nodiscard]] bool gaps_in_table(const MeshInput& input);
 
+/// Stretches of a face that is no solid one, between whose ends the load is found.
+inline constexpr int face_stretches = 24;
+/// Their ends, m from the middle, and what the flanks are apart there.
+struct EvenStations {
+  std::vector<double> at, gap;
+};
+[[nodiscard]] EvenStations even_stations(const geometry::GearPair& pair, const MeshInput& input, double misalignment,
+                                         int stretches = face_stretches);
+
 /// N/m along the normal, where any stiffness of the usual size will do: 20 N/(mm um), as ISO 6336-1 takes it for
 /// c_gamma of steel gears.
 [[nodiscard]] double nominal_mesh_stiffness(const geometry::GearPair& pair);
@@ -44,8 +53,8 @@ enum class GapsAlong { normal, transverse_section };
                                                               const RunOptions& options);
 
 [[nodiscard]] Warning even_faces_warning(const std::string& ring);
-/// How well the faces of meshes in motion are known. `meshes`: each with its name, "sun mesh".
+/// What is not known of the faces of meshes in motion. `meshes`: each with its name, "sun mesh".
 [[nodiscard]] std::vector<Warning> face_warnings(const std::vector<std::pair<std::string, const MeshResult*>>& meshes,
-                                                 double accuracy, const std::string& ring);
+                                                 const std::string& ring);
 
 }  // namespace annulus::app

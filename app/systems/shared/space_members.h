@@ -20,11 +20,14 @@ ANNULUS_MEMBERS(dynamics::LinearCoupling, name, bearings, stiffness, turned, tur
 ANNULUS_MEMBERS(dynamics::SpaceLoad, body, load);
 ANNULUS_MEMBERS(dynamics::StandingLoad, body, cosine, sine);
 ANNULUS_MEMBERS(dynamics::SpaceSupports, laws, bearings, couplings, loads, standing_loads);
-ANNULUS_MEMBERS(FaceShape, slope, curvature, gap_slope, error_relative, tilted);
+ANNULUS_MEMBERS(FaceShape, slope, curvature, gap_slope, tilted);
 ANNULUS_MEMBERS(dynamics::SpreadFace, width, middle, gap, shape);
 ANNULUS_MEMBERS(app::SpaceResults::Bearing, name, radial_mean, radial_max, axial_mean, axial_max, moment_max,
                 law_deviation, table_end);
-ANNULUS_MEMBERS(app::SpaceResults::Mesh, name, place_mean, place_min, place_max, face_width, solid_face);
-ANNULUS_MEMBERS(app::SpaceResults, bearings, meshes, table);
+ANNULUS_MEMBERS(app::SpaceResults::FaceMoment, cycles, force, tilt, place);
+ANNULUS_MEMBERS(app::SpaceResults::Mesh, name, place_mean, place_min, place_max, face_width, solid_face, tilted_cycle,
+                moments);
+ANNULUS_MEMBERS(app::SpaceResults::Face, mesh, factor, error, deviation, at, line_load);
+ANNULUS_MEMBERS(app::SpaceResults, bearings, meshes, faces, table);
 
 }  // namespace annulus

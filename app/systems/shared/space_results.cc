@@ -43,6 +43,40 @@ const SpaceResults::Mesh* most_tilted(const SpaceResults& results) {
   return most;
 }
 
+/// The mesh cycle of the window in which the mean force stands furthest from the middle, as moments; none where a cycle
+/// has too few samples, or in no cycle the mesh always carries.
+void add_most_tilted_cycle(SpaceResults::Mesh& result, const dynamics::SpaceMotion::Mesh& mesh) {
+  constexpr int fewest = 8;
+  const auto cycle_of = [&](Eigen::Index i) {
+    constexpr double rounding = 1e-6;  // mesh cycles
+    return static_cast<int>(std::floor(mesh.cycles[i] - mesh.cycles[0] + rounding));
+  };
+  double furthest = -1;
+  for (Eigen::Index first = 0, end = 0; first < mesh.force.size(); first = end) {
+    for (end = first; end < mesh.force.size() && cycle_of(end) == cycle_of(first);) ++end;
+    const auto force = mesh.force.segment(first, end - first).array(),
+               place = mesh.place.segment(first, end - first).array();
+    if (end - first < fewest || place.isNaN().any() || force.minCoeff() <= 0) continue;
+    const double from_middle = std::abs((force * place).sum() / force.sum());
+    if (from_middle <= furthest) continue;
+    furthest = from_middle;
+    result.tilted_cycle = cycle_of(first);
+    result.moments.clear();
+    for (Eigen::Index i = first; i < end; ++i)
+      result.moments.push_back({mesh.cycles[i], mesh.force[i], mesh.tilt[i], mesh.place[i]});
+  }
+}
+
+/// "sun_planet2": its load along the face, for a plot.
+Series load_along(const SpaceResults::Face& face, std::size_t colour) {
+  Series series{.label = face.mesh, .colour = colour};
+  for (std::size_t i = 0; i < face.at.size(); ++i) {
+    series.x.push_back(face.at[i] / units::mm);
+    series.y.push_back(face.line_load[i] * units::mm);
+  }
+  return series;
+}
+
 double mean_of(const Eigen::VectorXd& values) { return values.size() == 0 ? not_known : values.mean(); }
 
 }  // namespace
@@ -72,6 +106,7 @@ SpaceResults space_results(const dynamics::SpaceMotion& found, int cycles) {
       std::tie(smallest[c], largest[c]) = known_range(mesh.place.segment(c * samples, samples));
     const auto [low, high] = known_range(mesh.place);
     results.meshes.push_back({mesh.name, mesh.mean_place, low, high, mesh.face_width, mesh.solid_face});
+    add_most_tilted_cycle(results.meshes.back(), mesh);
     add_column(csv, mesh.name + "_place_min_m", smallest);
     add_column(csv, mesh.name + "_place_max_m", largest);
   }
@@ -97,8 +132,24 @@ std::vector<Warning> space_result_warnings(const SpaceResults& results, double a
     if (end_load(*mesh) > 1 + fem::reduced_face_tilt)
       text += fmt::format(". Error bars contain the change of the face up to {:.2g} mm alone",
                           fem::reduced_face_tilt * mesh->face_width / 6 / units::mm);
+    const auto face = std::find_if(results.faces.begin(), results.faces.end(),
+                                   [&](const auto& found) { return found.mesh == mesh->name; });
+    text += face == results.faces.end()
+                ? ". The load along this face could not be found"
+                : fmt::format(". In this motion K_Hβ of this mesh is {}", measured(face->factor, face->error));
     list.push_back({"face_tilts", Severity::warning, std::move(text), ring});
   }
+  const auto off = std::max_element(results.faces.begin(), results.faces.end(), [](const auto& a, const auto& b) {
+    const auto known = [](double deviation) { return std::isnan(deviation) ? -1 : deviation; };
+    return known(a.deviation) < known(b.deviation);
+  });
+  if (off != results.faces.end() && off->deviation > accuracy)
+    list.push_back({"face_reduced", Severity::warning,
+                    fmt::format("the dynamics has faces as straight about their load. At the tilt of mesh '{}' in this "
+                                "motion its moment over half the face width deviates by up to {:.2g} % of the force "
+                                "from that of the solid gears",
+                                off->mesh, 100 * off->deviation),
+                    ring});
   for (const auto& bearing : results.bearings)
     if (bearing.table_end > 0 && bearing.radial_max > bearing.table_end)
       list.push_back(beyond_bearing_table(bearing.name, bearing.radial_max, bearing.table_end, ring));
@@ -124,6 +175,10 @@ void add_json(Json& json, const SpaceResults& results) {
     json["places_of_mesh_forces"][mesh.name] = {{"mean_m", json_number(mesh.place_mean)},
                                                 {"min_m", json_number(mesh.place_min)},
                                                 {"max_m", json_number(mesh.place_max)}};
+  for (const auto& face : results.faces)
+    json["faces_in_motion"][face.mesh] = {{"face_load_factor", json_number(face.factor)},
+                                          {"face_load_factor_error", json_number(face.error)},
+                                          {"deviation_of_mesh_force", json_number(face.deviation)}};
 }
 
 Blocks space_blocks(const SpaceResults& results, const std::string& of) {
@@ -138,12 +193,29 @@ Blocks space_blocks(const SpaceResults& results, const std::string& of) {
   for (const auto& mesh : results.meshes)
     places.rows.push_back(
         {mesh.name, number(1e3, mesh.place_mean), number(1e3, mesh.place_min), number(1e3, mesh.place_max)});
+  Blocks loads;
+  if (!results.faces.empty()) {
+    PageTable factors{.head = {"load along the face" + of, "K_Hβ", "deviation of the reduced face, %"}};
+    Plot plot = wide_plot("Load along the face" + of + ", mean of one mesh cycle", "from the middle, mm", "N/mm");
+    for (const auto& face : results.faces) {
+      factors.rows.push_back({face.mesh, measured(face.factor, face.error),
+                              std::isnan(face.deviation) ? "–" : fmt::format("{:.2g}", 100 * face.deviation)});
+      plot.series.push_back(load_along(face, plot.series.size()));
+    }
+    loads =
+        Blocks(factors) +
+        paragraph(
+            "In the mesh cycle in which its force stands furthest from the middle. The gears carry the force and the "
+            "moment of the motion. Error bars contain by how much the reduced faces of the dynamics deviate from "
+            "the solid gears in this cycle, and nothing else; faces that are spread evenly have none.");
+    loads += Pictures{{plot}};
+  }
   return heading("Bearings and faces in space") + Blocks(bearings) +
          paragraph(
              "Without the dampers of the bearings. Forces in rigid coordinates are not known. Places count from the "
              "middle of the common face. A force that moves along the face loads the bearings at the mesh frequency "
              "even where its amount is constant (shuttling).") +
-         places;
+         places + loads;
 }
 
 }  // namespace annulus::app

@@ -23,17 +23,31 @@ struct SpaceResults {
     double moment_max = not_known;
     double law_deviation = 0, table_end = 0;  ///< SpaceMotion::Bearing
   };
+  /// A moment of a mesh: mesh cycles, N, m by which the end approaches further, m at which the force stands.
+  struct FaceMoment {
+    double cycles = 0, force = 0, tilt = 0, place = 0;
+  };
   /// Place of the mesh force along the face, m from its middle.
   struct Mesh {
     std::string name;
     double place_mean = not_known, place_min = not_known, place_max = not_known;
     double face_width = not_known;  ///< m
     bool solid_face = false;
+    int tilted_cycle = 0;               ///< of the window: that in which its mean force stands furthest from the middle
+    std::vector<FaceMoment> moments{};  ///< of that cycle; empty: too few samples, or light forces
     [[nodiscard]] double furthest() const { return std::max(std::abs(place_min), std::abs(place_max)); }
+  };
+  /// The load along the face of a mesh over one mesh cycle (Mesh::tilted_cycle).
+  struct Face {
+    std::string mesh;
+    double factor = not_known, error = not_known;  ///< K_Hβ, of the mean load of the cycle
+    double deviation = not_known;                  ///< largest (add_face_loads())
+    std::vector<double> at{}, line_load{};         ///< m from the middle, N/m
   };
   std::vector<Bearing> bearings{};
   std::vector<Mesh> meshes{};
-  Csv table{};  ///< per mesh cycle
+  std::vector<Face> faces{};  ///< those that were looked at
+  Csv table{};                ///< per mesh cycle
 };
 
 /// `cycles`: mesh cycles of the window. Empty without bearings.

@@ -10,6 +10,7 @@
 #include "app/model/time_series.h"
 #include "app/results/cached_value.h"
 #include "app/results/content_id.h"
+#include "app/systems/shared/face_loads.h"
 #include "app/systems/shared/space_members.h"
 #include "core/files.h"
 #include "core/log.h"
@@ -140,13 +141,15 @@ dynamics::TimeSeries series_of_part(const dynamics::TimeSeries& train, const std
 
 std::vector<SpaceResults> parts_in_space(const std::vector<WorkingPart>& parts,
                                          const std::vector<const MeshResult*>& tables,
-                                         const dynamics::TrainResponse& response) {
+                                         const dynamics::TrainResponse& response, const RunOptions& options) {
   std::vector<SpaceResults> list;
   const auto own = tables_of_parts(parts, tables);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto model = parts[i].system->model(0, own[i]);
     list.push_back(
         space_results(model->in_space(series_of_part(response.series, parts[i].name)), response.window_cycles));
+    if (!list.back().meshes.empty())
+      add_face_loads(list.back(), parts[i].system->moving_faces(0, own[i], options), options.threads);
   }
   return list;
 }
@@ -162,7 +165,7 @@ void set_errors(dynamics::TrainResponse& response, const FigureSet& figures) {
 
 TrainMotion motion_of(const Scene& scene, const std::vector<WorkingPart>& parts,
                       const std::vector<const MeshResult*>& tables, const dynamics::Train& train,
-                      const dynamics::SimulationOptions& options) {
+                      const dynamics::SimulationOptions& options, const RunOptions& run) {
   TrainMotion motion{.response = dynamics::simulate(train, options)};
   auto& response = motion.response;
   const auto way = dynamics::comparison_options(response, options);
@@ -176,7 +179,7 @@ TrainMotion motion_of(const Scene& scene, const std::vector<WorkingPart>& parts,
   set_errors(response, motion.figures);
   motion.modes = modes_of(train);
   motion.shafts = shaft_courses(response);
-  motion.space = parts_in_space(parts, tables, response);
+  motion.space = parts_in_space(parts, tables, response, run);
   for (auto& part : motion.space) part.table.round();
   motion.time_series = time_series_table(response.series, response.window_cycles).text();
   response.series = {};
@@ -253,7 +256,7 @@ std::unique_ptr<TrainRunResponse> train_response(const Scene& scene, const std::
   simulation.other_motions.threads = options.threads;
   const auto id = train_id(scene, parts, tables, train, simulation);
   auto [motion, reused] = cached_value(options.store.get(), cached_motions, id,
-                                       [&] { return motion_of(scene, parts, tables, train, simulation); });
+                                       [&] { return motion_of(scene, parts, tables, train, simulation, options); });
   note_reuse(options, "dynamics of the train", reused);
   const auto folder = options.out / "dynamics";
   std::filesystem::create_directories(folder);
@@ -262,10 +265,13 @@ std::unique_ptr<TrainRunResponse> train_response(const Scene& scene, const std::
   shafts.write(folder / "shafts.csv");
   write_file(folder / "time_series.csv", motion.time_series);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    auto table = motion.space[i].table;
-    if (table.columns.empty()) continue;
-    table.header = shafts.header;
-    table.write(folder / fmt::format("bearings_in_space_{}.csv", parts[i].name));
+    const auto write = [&](const char* name, Csv table) {
+      if (table.columns.empty()) return;
+      table.header = shafts.header;
+      table.write(folder / fmt::format("{}_{}.csv", name, parts[i].name));
+    };
+    write("bearings_in_space", motion.space[i].table);
+    write("face_loads", face_loads_table(motion.space[i]));
   }
   motion.time_series.clear();
   const auto& found = motion.response;

@@ -113,7 +113,7 @@ class TrainSystem final : public GearSystem {
       add(space_result_warnings(space[i], scene().accuracy, name, ""));
       std::vector<std::pair<std::string, const MeshResult*>> meshes;
       for (const auto* table : tables[i]) meshes.emplace_back(table->model.label(), table);
-      add(face_warnings(meshes, scene().accuracy, name));
+      add(face_warnings(meshes, name));
     }
     return list;
   }

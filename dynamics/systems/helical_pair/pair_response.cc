@@ -241,7 +241,7 @@ SpaceMotion space_motion(const HelicalPair& pair, const TimeSeries& series) {
   SpaceSystem system;
   system.bearings = bearing_coordinates(pair);
   system.faces = {&pair.space->face};
-  return motion_in_space(*pair.space, system, series);
+  return motion_in_space(*pair.space, system, assemble(pair), series);
 }
 
 HelicalPair with_errors_alone(HelicalPair pair) {

@@ -16,7 +16,7 @@ SpaceMotion space_motion(const PlanetaryStage& stage, const TimeSeries& series) 
   const auto planets = static_cast<std::size_t>(stage.planets());
   system.faces.assign(planets, &stage.space->sun_face);
   system.faces.resize(2 * planets, &stage.space->ring_face);
-  return motion_in_space(*stage.space, system, series);
+  return motion_in_space(*stage.space, system, assemble(stage), series);
 }
 
 }  // namespace annulus::dynamics
