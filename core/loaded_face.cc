@@ -48,7 +48,7 @@ double FlanksUnderLoad::tilt_stiffness() const {
 
 FlanksUnderLoad flanks_under(const FaceLaw& law, double force, double place) {
   constexpr int most = 60;
-  constexpr double accuracy = 1e-6;
+  constexpr double accuracy = 1e-8;
   const Eigen::Vector2d wanted(force, force * 2 * place / law.face_width());
   Eigen::Vector2d at(approach_under(law, force), 0);
   auto load = load_of_straight_flanks(law, at[0], at[1]);

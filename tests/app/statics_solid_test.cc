@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(solid_faces_share_the_load_as_tables_do) {
     record.near("largest load sharing in any position", "",
                 result(statics, mesh + "_static_load_sharing_instantaneous"), other, 0.02 * (other - 1) + 1e-3,
                 "accuracy of the tables");
-    BOOST_TEST(result(statics, mesh + "_static_face_load_factor") > 1.05);
+    BOOST_TEST(result(statics, mesh + "_static_face_load_factor") > 1.02);
     BOOST_TEST(result(statics, mesh + "_static_face_load_factor_instantaneous") >
                result(statics, mesh + "_static_face_load_factor"));
   }
@@ -79,7 +79,8 @@ BOOST_AUTO_TEST_CASE(slow_motion_has_the_faces_of_the_statics) {
                 result(statics, mesh + "_static_load_sharing"), 5e-3, "linear in load and tilt");
   for (const std::string mesh : {"sun_planet", "ring_planet"})
     record.close("K_Hβ of a mesh cycle", "", face_load_factor_in_motion(summary, mesh),
-                 result(statics, mesh + "_static_face_load_factor"), 1e-2, "linear in load and tilt; phases");
+                 result(statics, mesh + "_static_face_load_factor"), 2e-2,
+                 "linear in load and tilt, without lean; eight phases");
   const auto forces = table(folder, "mesh_forces.csv");
   double largest_swing = 0;
   for (const std::string mesh : {"sun_planet1", "sun_planet2", "sun_planet3", "ring_planet1", "ring_planet3"}) {

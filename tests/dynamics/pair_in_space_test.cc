@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(modes_are_those_of_rigid_bodies_with_exact_rotations) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(k, inertia);
     auto made = lumped(pair, s);
     made.space->mass_place_pinion = off;
-    const auto found = modes(made).modes;
+    const auto found = annulus::dynamics::modes(made).modes;
     BOOST_TEST_REQUIRE(found.size() == 12U);
     BOOST_TEST(found.front().frequency == 0);
     for (std::size_t i = 1; i < found.size(); ++i)
@@ -248,8 +248,8 @@ BOOST_AUTO_TEST_CASE(the_plane_is_a_setting) {
   annulus::test::Verification record("Plane pair as a pair in space", "plane model");
   const auto compare = [&](const HelicalPair& plane, const SpatialPair& s, const char* name) {
     const auto in_space = lumped(plane, s);
-    const auto found = modes(in_space).modes;
-    for (const auto& mode : modes(plane).modes) {
+    const auto found = annulus::dynamics::modes(in_space).modes;
+    for (const auto& mode : annulus::dynamics::modes(plane).modes) {
       double nearest = 1e300;
       for (const auto& other : found)
         if (std::abs(other.frequency - mode.frequency) < std::abs(nearest - mode.frequency)) nearest = other.frequency;
