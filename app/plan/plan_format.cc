@@ -154,7 +154,8 @@ std::string to_text(const Plan& plan) {
   text += fmt::format("  {} contact problems per level of resolution\n", plan.contact_problems());
   text += cost_lines(plan);
 
-  if (!plan.dofs.empty()) text += "\nLumped model\n" + decision_lines(plan.motion);
+  if (!plan.dofs.empty())
+    text += plan.motion.empty() ? "\nDegrees of freedom\n" : "\nLumped model\n" + decision_lines(plan.motion);
   for (const auto& f : plan.dofs)
     text += fmt::format("  {} {} {}\n", f.kept ? "retained" : "dropped ", left_aligned(f.name, 18), f.reason);
 

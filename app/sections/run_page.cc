@@ -41,7 +41,7 @@ Section model_section(const Plan& plan) {
                            m.computed() ? fmt::format("{} × {}", m.problem->phases, m.positions) : "–", m.repeats});
   Blocks blocks = meshes;
   if (!plan.dofs.empty()) {
-    PageTable dofs{.head = {"degree of freedom of the lumped model", "", "reason"}};
+    PageTable dofs{.head = {"degree of freedom", "", "reason"}};
     for (const auto& f : plan.dofs) dofs.rows.push_back({f.name, f.kept ? "retained" : "dropped", f.reason});
     blocks += dofs;
   }

@@ -20,7 +20,7 @@ bool same_in_plane(const Mechanism::Measure& a, const Mechanism::Measure& b) {
 }  // namespace
 
 Mechanism::Measure BearingAssembly::measure(const StageBearing& b, const BearingPlace& place, int coordinate) const {
-  const Vector3d point = place.middle + b.place * Vector3d::UnitZ();
+  const Vector3d point = place.middle + place.axes.leftCols<2>() * b.beside + b.place * Vector3d::UnitZ();
   return coordinate < 3 ? mechanism_.displacement(place.body, place.on, point, place.axes.col(coordinate))
                         : mechanism_.rotation(place.body, place.on, place.axes.col(coordinate - 3));
 }

@@ -24,9 +24,9 @@ std::optional<RollingRow> mirrored(std::optional<RollingRow> row) {
 
 /// A bearing and its mirror image about the middle of the face do the same.
 bool mirrors(const StageBearing& a, const StageBearing& b) {
-  return a.body == b.body && a.on == b.on && a.place == -b.place && a.x == b.x && a.y == b.y && a.play == b.play &&
-         a.load_zone == b.load_zone && a.row == mirrored(b.row) && a.distance == b.distance && a.force == b.force &&
-         !a.matrix && !b.matrix;
+  return a.body == b.body && a.on == b.on && a.place == -b.place && a.beside == b.beside && a.x == b.x && a.y == b.y &&
+         a.play == b.play && a.load_zone == b.load_zone && a.row == mirrored(b.row) && a.distance == b.distance &&
+         a.force == b.force && !a.matrix && !b.matrix;
 }
 
 }  // namespace

@@ -14,12 +14,13 @@
 
 namespace annulus::dynamics {
 
-/// A bearing between two bodies in a place on the axis of the first: force and moment from the displacement (x, y, z)
-/// and the tilt (about x, y) of `body` against `on` there. It has no torque about the axis.
+/// A bearing between two bodies in a place on the axis of the first, or beside it: force and moment from the
+/// displacement (x, y, z) and the tilt (about x, y) of `body` against `on` there. It has no torque about its own axis.
 struct StageBearing {
   std::string name;
   StageBody body, on;
   double place = 0;                         ///< m, z
+  Eigen::Vector2d beside{0, 0};             ///< m, x and y in its frame, of a mount beside the axis
   double x = 0, y = 0;                      ///< N/m; `rigid`: does not move
   double axial = 0;                         ///< N/m
   double tilt = 0;                          ///< N m/rad, about x and y
@@ -32,6 +33,8 @@ struct StageBearing {
   double seat = rigid;                      ///< N/m, in series with a bearing that has play and a load zone
   /// In which x and y point: that of what it stands on; planets and their pins have their own.
   [[nodiscard]] StageFrame frame() const;
+  /// Whether it resists a turn of its body: it holds across the axis, beside it.
+  [[nodiscard]] bool resists_turning() const { return beside.any() && holds_radially(); }
   [[nodiscard]] bool holds_radially() const { return matrix || row || !distance.empty() || x > 0 || y > 0; }
   std::optional<Eigen::Matrix<double, 5, 5>> matrix{};  ///< instead of the stiffnesses; SI
 };

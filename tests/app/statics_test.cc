@@ -173,6 +173,11 @@ BOOST_AUTO_TEST_CASE(files_and_warnings) {
                          bearing("guide", "sun", "radial_displacement_um = [0, 1]\nradial_force_N = [0, 1]\n"));
   BOOST_TEST(short_table.at("warnings").dump().find("more than the 1 N at which its table ends") != std::string::npos);
   BOOST_TEST(json.at("warnings").dump().find("table ends") == std::string::npos);
+  const auto swept = solved(folder, helical_stage() + in_space() +
+                                        "[[sweep]]\ninput = \"bearing.spline.tilt_Nm_per_rad\"\nfrom = 1e5\nto = "
+                                        "1e8\ncount = 2\n");
+  BOOST_TEST(swept.at("warnings").dump().find("leaves out [[sweep]] 1") != std::string::npos,
+             swept.at("warnings").dump());
   // Nothing holds the sun along the axis: its helix would screw it out.
   const auto loose = test::replaced(helical_stage() + in_space(), "axial_N_per_m = 3e8\n", "");
   write_file(folder.path() / "loose.toml", loose);
@@ -183,6 +188,49 @@ BOOST_AUTO_TEST_CASE(files_and_warnings) {
   const auto pair = test::run_program(folder.path(), "statics pair.toml --out pair");
   BOOST_TEST(pair.status == 2);
   BOOST_TEST(pair.err.find("planetary stages alone") != std::string::npos, pair.err);
+}
+
+/// Trunnions to the left and right of the ring.
+std::string in_mounts(const std::string& keys = "") {
+  std::string text;
+  for (const auto& [side, x] : {std::pair{"left", -700}, {"right", 700}})
+    text += bearing(std::string("trunnion ") + side, "ring",
+                    fmt::format("beside_axis_mm = [{}, 20]\nradial_N_per_m = 4e8\naxial_N_per_m = 2e8\n{}", x, keys));
+  return text;
+}
+
+// The trunnions bear the torque of the ring, its weight and the axial force of its teeth, which the sun takes up.
+BOOST_AUTO_TEST_CASE(ring_in_trunnions) {
+  test::Verification record("Ring in trunnions by annulus statics", "equilibrium of the ring");
+  const test::TemporaryFolder folder("statics_8");
+  (void)solved(folder, helical_stage() + in_space() + in_mounts());
+  const auto bearings = table(folder, "bearings.csv"), meshes = table(folder, "mesh_forces.csv");
+  const auto column = [&](const std::string& name) { return bearings.column(name); };
+  const double base = 10e-3 / std::cos(7.5 * units::deg) * 99 / 2 *
+                      std::cos(std::atan(std::tan(20 * units::deg) / std::cos(7.5 * units::deg)));
+  for (std::size_t i = 0; i < bearings.rows.size(); i += 7) {
+    const auto& row = bearings.rows[i];
+    const auto on = [&](int bearing, const char* direction) {
+      return row[column(fmt::format("bearing{}_{}_N", bearing, direction))];
+    };
+    double torque = 0;
+    for (int n = 1; n <= 3; ++n)
+      torque += meshes.rows[i][meshes.column(fmt::format("ring_planet{}_force_N", n))] * base;
+    const double found = 0.7 * (on(11, "y") - on(10, "y")) - 0.02 * (on(11, "x") + on(10, "x"));
+    record.close("torque of the trunnions on the ring", "N m", found, torque, 1e-6, "residual of the equilibrium");
+  }
+  const auto refused = [&](const std::string& tables, const std::string& words) {
+    write_file(folder.path() / "scene.toml", helical_stage() + in_space() + tables);
+    const auto outcome = test::run_program(folder.path(), "check scene.toml");
+    BOOST_TEST(outcome.status == 2, outcome.err);
+    BOOST_TEST(outcome.err.find(words) != std::string::npos, outcome.err);
+  };
+  refused(test::replaced(in_mounts(), "beside_axis_mm = [700, 20]", "beside_axis_mm = [700, 20, 0]"),
+          "needs two values, x and y, not 3");
+  refused(test::replaced(in_mounts(), "body = \"ring\"\nbeside_axis_mm = [700",
+                         "body = \"carrier\"\nbeside_axis_mm = [700"),
+          "bearing.beside_axis_mm");
+  refused(in_mounts("tilt_Nm_per_rad = \"rigid\"\n"), "needs a mount that gives way");
 }
 
 BOOST_AUTO_TEST_CASE(degrees_of_motions_in_the_plan) {
@@ -213,6 +261,14 @@ BOOST_AUTO_TEST_CASE(degrees_of_motions_in_the_plan) {
   says(plan, "retained sun tilts", "bearing 'spline'");
   says(plan, "dropped  ring z, tilts", "no [[bearing]] holds it");
   BOOST_TEST(plan.find("The lumped model is plane") == std::string::npos);
+  // Without [dynamics] those of the statics.
+  write_file(folder.path() / "scene.toml", helical_stage() + in_space() + in_mounts());
+  const auto statics = test::run_program(folder.path(), "plan scene.toml --inputs");
+  BOOST_TEST(statics.status == 0, statics.err);
+  says(statics.out, "retained carrier z", "bearing 'upwind'");
+  says(statics.out, "dropped  carrier u", "its angle is that of the position");
+  says(statics.out, "retained ring u", "bearings beside its axis");
+  says(statics.out, "retained planet 1 ... 3 u", "turns");
   BOOST_TEST(plan_of("").find("The lumped model is plane") != std::string::npos);
 }
 

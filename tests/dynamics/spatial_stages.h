@@ -39,6 +39,20 @@ inline StageBearing bearing(const std::string& name, StageBody body, StageBody o
   return b;
 }
 
+/// The ring in mounts beside its axis alone, evenly around it; the first one lies on x.
+constexpr double mounts_radius = 0.6, mounts_place = 0.05, mounts_radial = 4e8, mounts_axial = 3e8;
+inline void put_ring_in_mounts(SpatialStage& stage, int count) {
+  stage.plane.ring.torsional_support = 0;
+  std::erase_if(stage.bearings, [](const auto& b) { return b.body.kind == StageBody::Kind::ring; });
+  for (int i = 0; i < count; ++i) {
+    auto b = bearing("mount " + std::to_string(i + 1), {StageBody::Kind::ring}, {}, mounts_place, mounts_radial,
+                     mounts_axial);
+    const double angle = 2 * std::numbers::pi * i / count;
+    b.beside = mounts_radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    stage.bearings.push_back(b);
+  }
+}
+
 /// A row of rollers of a planet, with clearance.
 inline RollingRow row_of_planets() {
   return {.count = 18, .diameter = 0.03, .length = 0.05, .clearance = 40e-6, .ring = RollingRow::Ring::outer};

@@ -36,9 +36,9 @@ BOOST_AUTO_TEST_CASE(standing_loads_are_those_of_the_statics_at_every_angle) {
   annulus::test::Verification record("Standing loads of a lumped stage in space", "statics of the mechanism");
   const std::vector<double> cycles{0, 13, 41, 77};
   // With a pin beside its place a carrier in clearance does not stand still in the housing.
-  enum class Case { linear, clearance, clearance_and_error, planets_on_rollers, rollers_on_carrier };
-  for (const auto which :
-       {Case::linear, Case::clearance, Case::clearance_and_error, Case::planets_on_rollers, Case::rollers_on_carrier}) {
+  enum class Case { linear, clearance, clearance_and_error, planets_on_rollers, rollers_on_carrier, mounts };
+  for (const auto which : {Case::linear, Case::clearance, Case::clearance_and_error, Case::planets_on_rollers,
+                           Case::rollers_on_carrier, Case::mounts}) {
     constexpr double speed = 1e-3;  // no centrifugal forces to speak of
     auto s = loaded_in_housing(speed);
     if (which != Case::clearance) {
@@ -53,6 +53,7 @@ BOOST_AUTO_TEST_CASE(standing_loads_are_those_of_the_statics_at_every_angle) {
     if (which == Case::rollers_on_carrier) s.pins = pins_stiffness(stages::two_wall_carrier(s));
     if (which == Case::planets_on_rollers || which == Case::rollers_on_carrier)
       for (std::size_t i = 0; i < 6; ++i) s.bearings[i].row = stages::row_of_planets();
+    if (which == Case::mounts) stages::put_ring_in_mounts(s, 4);
     const bool wanders = which == Case::clearance_and_error;
     const char* origin = wanders ? "residual of the equilibria; the contact of a face ends between two of its places"
                                  : "residual of the equilibria";
@@ -72,6 +73,7 @@ BOOST_AUTO_TEST_CASE(standing_loads_are_those_of_the_statics_at_every_angle) {
         const auto name = wanders                             ? ", a carrier in clearance that wanders"
                           : which == Case::planets_on_rollers ? ", planets on rollers"
                           : which == Case::rollers_on_carrier ? ", planets on rollers on a carrier that gives way"
+                          : which == Case::mounts             ? ", a ring in four mounts beside its axis"
                                                               : "";
         record.close(std::string("mesh forces") + name, "N", found.force[m], mesh.force, tolerance, origin);
         record.at_most(std::string("moment along the face over force x half its width") + name, "",

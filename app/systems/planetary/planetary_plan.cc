@@ -81,9 +81,13 @@ std::vector<DofPlan> dofs(const Scene& scene) {
   given.sun_torsional = torsional_support(scene, StageMember::sun);
   given.ring_torsional = torsional_support(scene, StageMember::ring);
   given.carrier_torsional = torsional_support(scene, StageMember::carrier);
-  const auto effective = effective_supports(
-      scene, rough_stiffness(scene, scene.sun_planet, narrower_face(scene, scene.sun, scene.planet)),
-      rough_stiffness(scene, scene.ring_planet, narrower_face(scene, scene.planet, scene.rings.front())));
+  // An equilibrium takes every stiffness as it is.
+  const auto effective =
+      scene.dynamics
+          ? effective_supports(
+                scene, rough_stiffness(scene, scene.sun_planet, narrower_face(scene, scene.sun, scene.planet)),
+                rough_stiffness(scene, scene.ring_planet, narrower_face(scene, scene.planet, scene.rings.front())))
+          : given;
   std::vector<DofPlan> list;
   const auto add = [&](const std::string& dof, const char* support, auto SupportInput::*stiffness) {
     const std::optional<double> before = given.*stiffness, after = effective.*stiffness;
@@ -209,10 +213,8 @@ void describe_planetary(const Scene& scene, const GearGeometry& geometry, Plan& 
   plan.inputs = resolved_inputs(scene, derived_inputs(geometry));
   plan.quantities = stage_quantities(scene, geometry);
   for (const auto& ring : geometry.rings) plan.rings.emplace_back(ring.name, ring_quantities(ring));
-  if (scene.dynamics) {
-    plan.dofs = dofs_in_space(scene, geometry, dofs(scene));
-    plan.motion = motion_decisions(scene, plan.meshes);
-  }
+  if (scene.dynamics || has_statics_in_space(scene)) plan.dofs = dofs_in_space(scene, geometry, dofs(scene));
+  if (scene.dynamics) plan.motion = motion_decisions(scene, plan.meshes);
   plan.remarks = remarks(scene, geometry, plan.computes(), plan.meshes.front().computed());
 }
 

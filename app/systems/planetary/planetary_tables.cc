@@ -241,7 +241,7 @@ Table supports_table() {
         .from(0, 1e15)
         .infinite()
         .word("rigid", rigid)
-        .absent("rigid where this member is held, otherwise none: it turns");
+        .absent("rigid where this member is held, but for a ring in mounts beside its axis; otherwise none: it turns");
   };
   torsional("ring_torsional_N_per_m", &SupportInput::ring_torsional,
             "Torsional support of the ring, in u = base radius × angle.");

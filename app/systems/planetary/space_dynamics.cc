@@ -78,6 +78,7 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
   const auto inertias = tilt_inertias(scene, geometry, ring);
   about(scene, "bearing", [&] { stage.space = dynamics::space_about_equilibrium(spatial, inertias); });
   stage.space->laws = scene.dynamics->bearing_laws;
+  stage.ring.torsional_support += stage.space->ring_mounts / (stage.ring.radius * stage.ring.radius);
   if (const auto& g = scene.own<SpaceInput>().gravity) stage.space->mass_place = {g->sun, g->ring, g->carrier};
   const auto& set = geometry.rings.at(ring).set;
   const auto& e = scene.errors;
@@ -123,16 +124,19 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
   for (const auto& b : space.bearings) {
     const auto made = stage_bearing(b, {b.body}, b.name);
     if (turns && in_housing(b) && dynamics::is_nonlinear(made)) past_carrier.push_back("'" + b.name + "'");
-    const bool stands = made.frame() == dynamics::StageFrame::housing;
-    if ((stands && b.has_directions()) || in_housing(b)) directed.push_back("'" + b.name + "'");
+    const bool stands = made.frame() == dynamics::StageFrame::housing, beside = made.beside.any();
+    if (beside && dynamics::is_nonlinear(made)) past_carrier.push_back("'" + b.name + "'");
+    if ((stands && b.has_directions()) || in_housing(b) || beside) directed.push_back("'" + b.name + "'");
   }
   if (!past_carrier.empty())
     list.push_back(
         {"bearings_linear", Severity::warning,
-         fmt::format("the housing gives way under {} while the carrier turns. In the dynamics these bearings have "
-                     "their stiffness at the equilibrium at time 0, and the force that they bear there. Vibrations "
-                     "that change their load by a large part are not right; annulus statics has their whole law",
-                     fmt::join(past_carrier, ", "))});
+         fmt::format(
+             "the carrier turns past bearing {}, which lies beside the axis or on a housing that gives way. In "
+             "the dynamics such bearings have their stiffness at the equilibrium at time 0, and the force that "
+             "they bear there. Vibrations that change their load by a large part are not right; annulus statics "
+             "has their whole law",
+             fmt::join(past_carrier, ", "))});
   if (!directed.empty())
     list.push_back({"bearings_averaged", Severity::warning,
                     fmt::format("the stiffness of bearing {} in the housing depends on the direction; the dynamics has "

@@ -25,8 +25,10 @@ bool in_housing(const dynamics::SpatialStage& stage, Body kind) {
 
 }  // namespace
 
+bool has_statics_in_space(const Scene& scene) { return moves_in_space(scene) || scene.stage.helix_angle != 0; }
+
 std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geometry, std::vector<DofPlan> plane) {
-  if (!moves_in_space(scene)) return plane;
+  if (!moves_in_space(scene) && (scene.dynamics || !has_statics_in_space(scene))) return plane;
   const auto stage = spatial_frame(scene, geometry, 0);
   const bool leaves_plane = !stage.reasons_for_space().empty();
   std::vector<DofPlan> list;
@@ -66,6 +68,10 @@ std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geome
     }
     if (kind == Body::ring && stage.housing && stage.housing->ring_bearing)
       list.push_back({"ring u", true, "the housing gives way"});
+    else if (kind == Body::ring && stage.ring_turns_in_mounts())
+      list.push_back({"ring u", true, "bearings beside its axis give way"});
+    else if (kind == Body::carrier && !scene.dynamics)
+      list.push_back({"carrier u", false, "its angle is that of the position"});
     else if (kind != Body::planet)
       of_plane(name + " u");
   }
@@ -74,7 +80,7 @@ std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geome
 }
 
 std::string remark_on_statics(const Scene& scene, const GearGeometry& geometry) {
-  if (!moves_in_space(scene) && scene.stage.helix_angle == 0) return {};
+  if (!has_statics_in_space(scene)) return {};
   const auto reasons = spatial_frame(scene, geometry, 0).reasons_for_space();
   const char* where = moves_in_space(scene) ? "In space" : "annulus statics";
   if (reasons.empty())

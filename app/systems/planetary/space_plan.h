@@ -11,6 +11,7 @@
 namespace annulus::app {
 
 /// The degrees of freedom of the lumped model: `plane` where the scene has nothing in space.
+[[nodiscard]] bool has_statics_in_space(const Scene& scene);
 [[nodiscard]] std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geometry,
                                                  std::vector<DofPlan> plane);
 

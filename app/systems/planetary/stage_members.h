@@ -21,7 +21,7 @@ struct Members<dynamics::StageSpace> {
   template <class Space>
   static auto of(Space& s) {
     return std::tie(static_cast<dynamics::SpaceSupports&>(s), s.base_helix_angle, s.planet_working_radius_sun,
-                    s.planet_working_radius_ring, s.sun_face, s.ring_face, s.tilt_inertia, s.mass_place);
+                    s.planet_working_radius_ring, s.sun_face, s.ring_face, s.tilt_inertia, s.mass_place, s.ring_mounts);
   }
 };
 ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bearings, planet_angles, planet_errors,

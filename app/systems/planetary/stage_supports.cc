@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/model/stiff_supports.h"
+#include "app/systems/shared/space_input.h"
 
 namespace annulus::app {
 
@@ -13,7 +14,9 @@ double torsional_support(const Scene& scene, StageMember member) {
   const auto& given = member == StageMember::sun    ? s.sun_torsional
                       : member == StageMember::ring ? s.ring_torsional
                                                     : s.carrier_torsional;
-  return given.value_or(scene.stage.held == member ? rigid : 0);
+  if (given) return *given;
+  const bool in_mounts = member == StageMember::ring && scene.own<SpaceInput>().ring_in_mounts();
+  return scene.stage.held == member && !in_mounts ? rigid : 0;
 }
 
 Beam pin_of(const Scene& scene) {

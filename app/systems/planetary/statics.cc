@@ -1,12 +1,14 @@
 #include "app/systems/planetary/statics.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
 
+#include "app/model/plan_studies.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/rim_coupling.h"
@@ -315,6 +317,16 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
   return result;
 }
 
+void warn_of_studies(StageStatics& statics) {
+  std::vector<std::string> names;
+  for (const auto& study : plan_studies(statics.scene)) names.push_back(study.name);
+  if (names.empty()) return;
+  statics.rings.front().warnings.push_back(
+      {"studies_left_out", Severity::warning,
+       fmt::format("annulus statics answers the scene as it stands and leaves out {}; annulus run has them",
+                   fmt::join(names, ", "))});
+}
+
 }  // namespace
 
 StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, const RunOptions& run_options) {
@@ -340,6 +352,7 @@ StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, con
       throw InputError(fmt::format("{}: ring '{}': {}", scene.file.string(), scene.rings[ring].name, error.what()));
     }
   }
+  warn_of_studies(statics);
   return statics;
 }
 

@@ -157,7 +157,7 @@ class StructureChecks : KeyChecks {
       const auto& b = bearings[i];
       const bool wrong_on = given("bearing.on", i) && !usable("bearing.on", i);
       if (!usable("bearing.name", i) || !usable("bearing.body", i) || wrong_on) return;
-      if (b.body == Body::planet || b.on.value_or(Body::housing) != Body::housing) continue;
+      if (b.body == Body::planet || b.on.value_or(Body::housing) != Body::housing || !b.beside.empty()) continue;
       known.push_back(column_of(b.name));
       if (b.body == Body::ring) of_ring.push_back(known.back());
     }
@@ -200,6 +200,7 @@ void check_structure(Scene& scene, std::vector<Problem>& problems) {
 void mirror_space(Scene& scene) {
   auto& space = scene.own<SpaceInput>();
   for (auto& b : space.bearings) {
+    if (b.beside.size() == 2) b.beside[1] = -b.beside[1];
     if (b.matrix.size() != 25) continue;
     constexpr double sign[] = {1, -1, 1, -1, 1};
     for (std::size_t i = 0; i < 25; ++i) b.matrix[i] *= sign[i / 5] * sign[i % 5];

@@ -38,6 +38,7 @@ dynamics::StageBearing stage_bearing(const BearingInput& input, const dynamics::
   b.body = body;
   b.on = {input.on.value_or(planet ? Body::carrier : Body::housing)};
   b.place = input.place;
+  if (!input.beside.empty()) b.beside = {input.beside[0], input.beside[1]};
   b.x = input.along_x();
   b.y = input.along_y();
   b.axial = input.axial;
@@ -68,6 +69,11 @@ Eigen::Vector3d GravityInput::vector() const {
 
 bool SpaceInput::has_bearing(Body body) const {
   return std::any_of(bearings.begin(), bearings.end(), [&](const auto& b) { return b.body == body; });
+}
+
+bool SpaceInput::ring_in_mounts() const {
+  return std::any_of(bearings.begin(), bearings.end(),
+                     [](const auto& b) { return b.body == Body::ring && !b.beside.empty() && b.holds_radially(); });
 }
 
 bool SpaceInput::has_radial_bearing(Body body, int planets) const {

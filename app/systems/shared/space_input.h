@@ -17,6 +17,7 @@ struct BearingInput {
   std::optional<int> planet;  ///< 1, 2, ...; absent: every planet
   std::optional<Body> on;     ///< absent: the housing, of planets the carrier
   double place = 0;
+  std::vector<double> beside;  ///< two values, or none: on the axis
   std::optional<double> radial, x, y;
   double axial = 0, tilt = 0;
   double clearance = 0, axial_clearance = 0, tilt_clearance = 0;
@@ -77,6 +78,8 @@ struct SpaceInput {
 
   [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity; }
   [[nodiscard]] bool has_bearing(BearingInput::Body body) const;
+  /// Whether mounts beside the axis keep the ring from turning.
+  [[nodiscard]] bool ring_in_mounts() const;
   /// Whether a body, or each of the planets, has a bearing that holds it radially.
   [[nodiscard]] bool has_radial_bearing(BearingInput::Body body, int planets = 1) const;
 };

@@ -10,7 +10,7 @@ namespace annulus {
 ANNULUS_MEMBERS(dynamics::StageBody, kind, planet);
 ANNULUS_MEMBERS(dynamics::RollingRow, element, count, diameter, length, pitch_diameter, contact_angle, clearance,
                 inner_groove, outer_groove, ring);
-ANNULUS_MEMBERS(dynamics::StageBearing, name, body, on, place, x, y, axial, tilt, play, load_zone, axial_play,
+ANNULUS_MEMBERS(dynamics::StageBearing, name, body, on, place, beside, x, y, axial, tilt, play, load_zone, axial_play,
                 tilt_play, distance, force, row, seat, matrix);
 ANNULUS_MEMBERS(dynamics::LinearBearing, name, body, on, place, stiffness, rigid, preload, standing, law, law_axes);
 ANNULUS_MEMBERS(dynamics::BearingsInSeries::Seated, bearing, first, place);

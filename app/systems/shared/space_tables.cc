@@ -68,6 +68,17 @@ Table bearing_table(const KindInSpace& of) {
       .key("at_mm", &BearingInput::place, "Place of its middle along the axis, from the middle of the face of [stage].")
       .fallback(0.0, "in the middle of the face")
       .from(-furthest_mm, furthest_mm);
+  if (has_carrier(of))
+    bearing
+        .key(
+            "beside_axis_mm", &BearingInput::beside,
+            "Place of a mount beside the axis, x and y as those of loads in the housing: a trunnion or a torque arm of "
+            "a ring that does not turn. Such mounts also keep the ring from turning, unless "
+            "supports.ring_torsional_N_per_m "
+            "is given.")
+        .from(-furthest_mm, furthest_mm)
+        .only_if(is("body", {"ring"}), "a mount stands in the housing beside what does not turn")
+        .absent("on the axis");
   const auto stiffness = [&](const char* name, auto member, const char* meaning) {
     return bearing.key(name, member, meaning).from(0, 1e15).infinite().word("rigid", rigid);
   };
@@ -334,6 +345,7 @@ class SpaceChecks : KeyChecks {
                 "would turn x and y of the bearing with a body that has no frame; use bearing.radial_N_per_m, which is "
                 "the same in all directions");
     }
+    beside_axis(i, b);
     if (b.tilt_clearance > 0 && (b.tilt == rigid || b.tilt == 0) && usable("bearing.tilt_clearance_deg", i) &&
         usable("bearing.tilt_Nm_per_rad", i))
       problem("bearing.tilt_clearance_deg", i,
@@ -363,6 +375,18 @@ class SpaceChecks : KeyChecks {
       problem("bearing.name", i,
               "holds nothing: give bearing.radial_N_per_m, x_N_per_m, y_N_per_m, axial_N_per_m, tilt_Nm_per_rad or "
               "stiffness_5x5_N_m_rad");
+  }
+
+  void beside_axis(std::size_t i, const BearingInput& b) {
+    const std::string key = "bearing.beside_axis_mm";
+    if (b.beside.empty() || !usable(key, i)) return;
+    if (b.beside.size() != 2) return problem(key, i, fmt::format("needs two values, x and y, not {}", b.beside.size()));
+    if (b.on.value_or(Body::housing) != Body::housing)
+      return problem(key, i, "is the place of a mount in the housing; leave bearing.on out");
+    if (b.body == Body::ring && usable("stage.held") && scene_.stage.held != geometry::StageMember::ring)
+      return problem(key, i, "is the place of a mount of a ring that does not turn; stage.held says that it turns");
+    if (b.along_x() == rigid || b.along_y() == rigid || b.axial == rigid || b.tilt == rigid)
+      problem(key, i, "needs a mount that gives way; use finite stiffnesses");
   }
 
   void matrix(std::size_t i, const std::vector<double>& values) {

@@ -186,6 +186,7 @@ class Assembly {
     const auto turn =
         mechanism().rotation(ring, in_housing ? housing_place(*stage_.housing->ring_bearing) : Mechanism::ground, axis);
     const double torsional = stage_.plane.ring.torsional_support;
+    if (torsional == 0 && stage_.ring_turns_in_mounts()) return;
     if (torsional == rigid || torsional == 0) {
       result_.ring_hold = mechanism().hold("the rotation of the ring", turn);
       return;
@@ -331,6 +332,11 @@ bool SpatialStage::has_radial_bearings(const StageBody& body) const {
                      [&](const auto& b) { return b.body == body && b.holds_radially(); });
 }
 
+bool SpatialStage::ring_turns_in_mounts() const {
+  return std::any_of(bearings.begin(), bearings.end(),
+                     [](const auto& b) { return b.body.kind == Kind::ring && b.resists_turning(); });
+}
+
 std::vector<std::string> SpatialStage::reasons_for_space() const {
   std::vector<std::string> reasons;
   if (base_helix_angle != 0) reasons.emplace_back("the teeth are helical");
@@ -354,7 +360,7 @@ bool SpatialStage::depends_on_carrier_angle() const {
   if (housing) return true;
   for (const auto& b : bearings) {
     if (b.frame() != StageFrame::housing) continue;
-    if (b.matrix || b.row || b.x != b.y) return true;
+    if (b.matrix || b.row || b.x != b.y || b.beside.any()) return true;
   }
   const auto fixed = [](const CentralBody& body) { return body.errors.position.exists(); };
   return fixed(plane.sun) || fixed(plane.ring) || fixed(plane.carrier);

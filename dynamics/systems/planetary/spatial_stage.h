@@ -73,6 +73,8 @@ struct SpatialStage {
   [[nodiscard]] int planets() const { return plane.planets(); }
   [[nodiscard]] bool has_bearings(const StageBody& body) const;
   [[nodiscard]] bool has_radial_bearings(const StageBody& body) const;
+  /// Whether mounts beside the axis hold the ring, instead of a support of its rotation alone.
+  [[nodiscard]] bool ring_turns_in_mounts() const;
   /// Why bodies move along the axis and tilt; empty: nothing makes them, and these degrees of freedom are left out.
   [[nodiscard]] std::vector<std::string> reasons_for_space() const;
   /// Whether anything stands still in the housing that is not the same in all directions, so that the forces depend on
@@ -94,7 +96,7 @@ struct StageMechanism {
   std::shared_ptr<const CoupledFaces> coupling{};  ///< of the driving flanks of the ring meshes; null without
   int ring_support = -1;                           ///< element of its torsional support; -1: none that gives way
   int carrier_hold = -1;                           ///< of its rotation, which bears its torque
-  int ring_hold = -1;                              ///< of its rotation; -1: it has an elastic torsional support
+  int ring_hold = -1;  ///< of its rotation; -1: it has an elastic torsional support, or mounts beside the axis
 };
 /// At time t (s). Throws InputError where bearings, loads and bodies do not fit.
 [[nodiscard]] StageMechanism assemble(const SpatialStage& stage, double t);

@@ -21,6 +21,7 @@ struct StageSpace : SpaceSupports {
     double sun = 0, ring = 0, carrier = 0;  ///< m, z of the centres of mass; those of planets are in their middle
   };
   MassPlace mass_place{};
+  double ring_mounts = 0;  ///< N m/rad, of mounts beside the axis against a turn of the ring
   /// Throws InputError with name and value of the quantity that cannot be used.
   void check(int planets) const;
 };

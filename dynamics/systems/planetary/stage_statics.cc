@@ -61,6 +61,20 @@ StaticBearing bearing_in(const StageMechanism& made, const MadeBearing& bearing,
   return result;
 }
 
+/// N m, from the housing: through what holds its rotation, or through mounts beside the axis.
+double torque_on_ring(const SpatialStage& stage, const StageMechanism& made, const StaticPosition& p,
+                      const Mechanism::Equilibrium& at) {
+  double torque = 0;
+  if (made.ring_hold >= 0) torque -= at.holding[made.ring_hold];
+  if (made.ring_support >= 0) torque -= at.state[static_cast<std::size_t>(made.ring_support)].force[0];
+  for (std::size_t i = 0; i < stage.bearings.size(); ++i) {
+    const auto& b = made.bearings[i];
+    if (b.body.kind == StageBody::Kind::ring)
+      torque += b.beside.x() * p.bearings[i].force.y() - b.beside.y() * p.bearings[i].force.x();
+  }
+  return torque;
+}
+
 /// `start`: motion that the search starts from; empty: none.
 StaticPosition solved_position(const SpatialStage& stage, double cycles, const Eigen::VectorXd& start) {
   const auto& plane = stage.plane;
@@ -100,7 +114,7 @@ StaticPosition solved_position(const SpatialStage& stage, double cycles, const E
         {axes.transpose() * at.motion.segment<3>(6 * b), axes.transpose() * at.motion.segment<3>(6 * b + 3)});
   }
   p.carrier_torque = -at.holding[made.carrier_hold];
-  if (made.ring_hold >= 0) p.ring_torque = -at.holding[made.ring_hold];
+  p.ring_torque = torque_on_ring(stage, made, p, at);
   return p;
 }
 

@@ -39,7 +39,7 @@ struct StaticPosition {
   std::vector<StaticMesh> sun_meshes{}, ring_meshes{};  ///< one per planet
   std::vector<StaticBearing> bearings{};
   std::vector<StaticBody> bodies{};            ///< sun, ring, carrier, planets, their pins, places of the housing
-  double carrier_torque = 0, ring_torque = 0;  ///< N m, on the stage from without; the ring's as far as it is held
+  double carrier_torque = 0, ring_torque = 0;  ///< N m, on the stage from without; the ring's from the housing
   double residual_relative = 0;
   Eigen::VectorXd motion{};  ///< m, rad: of the mechanism's bodies, 6 each (Mechanism)
 };

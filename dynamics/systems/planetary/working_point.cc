@@ -42,6 +42,44 @@ void stand(LinearBearing& bearing) {
   bearing.standing[axial] = 0;
 }
 
+/// Mounts of a ring beside its axis as one bearing in the middle of the face: their mean over a turn of the carrier, in
+/// which displacements and tilts do not turn the ring.
+class Mounts {
+ public:
+  void add(const Linearised& found, const Eigen::Vector2d& beside) {
+    using Row = Eigen::Matrix<double, 1, 6>;
+    Eigen::Matrix<double, 5, 6> move = Eigen::Matrix<double, 5, 6>::Zero();
+    move.leftCols<5>() = to_place(found.bearing.place);
+    move.row(0) += -beside.y() * Row::Unit(5);
+    move.row(1) += beside.x() * Row::Unit(5);
+    move.row(2) += beside.y() * Row::Unit(3) - beside.x() * Row::Unit(4);
+    stiffness_ += move.transpose() * found.bearing.stiffness * move;
+    force_ += move.transpose() * (found.bearing.stiffness * found.deflection + found.bearing.preload);
+    if (!bearing_.name.empty()) bearing_.name += " ";
+    bearing_.name += found.bearing.name;
+    any_ = true;
+  }
+  [[nodiscard]] bool any() const { return any_; }
+  /// N m/rad.
+  [[nodiscard]] double torsion() const { return stiffness_(5, 5); }
+  /// `motion`: of the ring, at which the forces act.
+  [[nodiscard]] LinearBearing bearing(const Vector& motion, bool turns) const {
+    LinearBearing result = bearing_;
+    result.body = {Kind::ring};
+    const Eigen::MatrixXd mean = mean_over_turn(stiffness_);
+    result.stiffness = mean.topLeftCorner<5, 5>();
+    result.preload = force_.head<5>() - result.stiffness * motion;
+    if (turns) stand(result);
+    return result;
+  }
+
+ private:
+  Eigen::Matrix<double, 6, 6> stiffness_ = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 1> force_ = Eigen::Matrix<double, 6, 1>::Zero();
+  LinearBearing bearing_;
+  bool any_ = false;
+};
+
 /// A bearing in the housing under loads that stand there: its mean stiffness, and the force beside it that stands.
 LinearBearing under_standing_loads(const Linearised& found) {
   LinearBearing result = found.bearing;
@@ -304,12 +342,17 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
   std::vector<PlanetBearings> of_planets(static_cast<std::size_t>(stage.planets()));
   const auto housed = stage.housing ? stage.housing->bearings : std::vector<std::size_t>{};
   std::vector<Linearised> in_housing(housed.size());
+  Mounts mounts;
   for (std::size_t i = 0; i < made.bearings.size(); ++i) {
     const auto& bearing = made.bearings[i];
     if (bearing.body.kind == Kind::pin) continue;
     const bool given = i < turning.bearings.size();
     if (const auto place = std::find(housed.begin(), housed.end(), i); place != housed.end()) {
       in_housing[static_cast<std::size_t>(place - housed.begin())] = linearised(made_under_all.bearings[i], under_all);
+      continue;
+    }
+    if (bearing.beside.any()) {
+      mounts.add(linearised(made_under_all.bearings[i], under_all), bearing.beside);
       continue;
     }
     const bool on_housing = bearing.on.kind == Kind::housing && turns;
@@ -330,6 +373,10 @@ StageSpace space_about_equilibrium(const SpatialStage& stage, const StageSpace::
   }
   const auto motions = in_space ? Motions::in_space : Motions::in_plane;
   if (stage.pins) put_on_pins(space, of_planets, *stage.pins, motions);
+  if (mounts.any()) {
+    space.bearings.push_back(mounts.bearing(motion_at(stage, under_all, {Kind::ring}, 0), turns));
+    space.ring_mounts = mounts.torsion();
+  }
   if (stage.housing) put_in_housing(space, stage, in_housing, made_under_all, under_all, motions);
   if (!in_space) {
     for (auto& b : space.bearings) flatten(b);
