@@ -10,6 +10,7 @@
 #include "dynamics/steady_state/other_motions.h"
 #include "dynamics/steady_state/periodic_response.h"
 #include "dynamics/steady_state/response_run.h"
+#include "dynamics/system/drive_line.h"
 #include "dynamics/time_integration/integrate.h"
 #include "dynamics/time_integration/integrator_choice.h"
 
@@ -139,6 +140,7 @@ struct SteadyProblem {
 struct LumpedCase {
   LumpedSystem system;
   SteadyProblem problem;
+  Turning turning{};
 };
 
 /// How the steady state was found, and how well it is known.

@@ -137,6 +137,12 @@ Eigen::VectorXd turning_as_one(const LumpedSystem& system, const std::vector<Rot
   return motion;
 }
 
+Turning turning_of(const std::vector<ShaftEnd>& ends) {
+  for (const auto& end : ends)
+    if (end.speed != 0 && end.radius > 0) return {dof_of(end.name), end.radius * end.speed};
+  return {};
+}
+
 LumpedSystem with_rotors(const LumpedSystem& system, const std::vector<Rotor>& rotors,
                          const std::vector<ShaftEnd>& ends) {
   if (rotors.empty()) return system;
@@ -179,8 +185,8 @@ LumpedSystem with_rotors(const LumpedSystem& system, const std::vector<Rotor>& r
       before = u;
       mass_before = mass;
     }
-    builder.add_load(first, -load);
-    builder.add_load(before, load);
+    builder.add_load(first, -load, LoadCause::torque);
+    builder.add_load(before, load, LoadCause::torque);
   }
   return builder.build();
 }

@@ -37,6 +37,13 @@ struct ShaftEnd {
   double load = 0;
 };
 
+/// A DOF that turns, and its velocity in the steady rotation.
+struct Turning {
+  std::string dof;
+  double velocity = 0;  ///< m/s; 0: nothing turns
+};
+[[nodiscard]] Turning turning_of(const std::vector<ShaftEnd>& ends);
+
 /// N, of a torque (N m) at a radius (m), which need not be known without torque.
 [[nodiscard]] inline double force_at(double radius, double torque) { return torque == 0 ? 0 : torque / radius; }
 

@@ -50,7 +50,7 @@ void subtract_coupled(const LumpedSystem& system, const Compiled& c, double t, E
       inverse(c.inverse_b.index[i], m) = c.inverse_b.factor[i];
     for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i)
       inverse.col(m) += w.factor[i] * c.inverse_moving.col(c.moving[i].slot);
-    damping[m] = acting_damping(c.meshes[m], w.contact[m]);
+    damping[m] = w.pace * acting_damping(c.meshes[m], w.contact[m]);
   }
   system.tangent_matrix(w, tangent);
   const Eigen::MatrixXd damped = inverse * damping.asDiagonal();
@@ -200,7 +200,7 @@ void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixX
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
     const CompiledMesh& mesh = c.meshes[m];
     const double k = w.tangent[m];
-    const double d = acting_damping(mesh, w.contact[m]);
+    const double d = w.pace * acting_damping(mesh, w.contact[m]);
     for (int i = c.inverse_b.start[m]; i < c.inverse_b.start[m + 1]; ++i)
       for (int j = c.b.start[m]; j < c.b.start[m + 1]; ++j) {
         const double product = c.inverse_b.factor[i] * c.b.factor[j];
@@ -256,7 +256,7 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
   }
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     const CompiledMesh& mesh = compiled_->meshes[m];
-    p.dissipated += acting_damping(mesh, w.contact[m]) * w.delta_rate[m] * w.delta_rate[m];
+    p.dissipated += w.pace * acting_damping(mesh, w.contact[m]) * w.delta_rate[m] * w.delta_rate[m];
     p.supplied -= w.error_rate[m] * w.force[m];
     if (mesh.face < 0)
       p.supplied +=

@@ -113,6 +113,9 @@ struct SpringElement {
   double damping = 0;    ///< N s/m
 };
 
+/// What a constant load follows when speed and torque change: nothing, the torque, or the square of the speed.
+enum class LoadCause { none, torque, rotation };
+
 /// Loads that change in time with one rate: cosine x cos(rate t) + sine x sin(rate t).
 struct HarmonicLoad {
   double rate = 0;               ///< rad/s, not 0
@@ -132,6 +135,7 @@ class LumpedSystem {
   /// Scratch memory and discrete state of one evaluation thread. Make one per thread with `workspace()`.
   struct Workspace {
     double time = 0;
+    double pace = 1;  ///< factor of the dampers of meshes, whose rates are those of another time (Pacing)
     bool excitation_valid = false;
     /// One entry per mesh at `time`. Where a law replaces the stiffness, `stiffness` is its secant at the nominal load.
     std::vector<double> stiffness, error, error_rate;
@@ -167,6 +171,9 @@ class LumpedSystem {
   [[nodiscard]] const Eigen::MatrixXd& damping() const { return damping_; }        ///< C, symmetric, without meshes
   [[nodiscard]] const Eigen::MatrixXd& gyroscopic() const { return gyroscopic_; }  ///< G, skew
   [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }              ///< N, the constant part of f
+  [[nodiscard]] const Eigen::VectorXd& load(LoadCause cause) const {               ///< N, its part that has this cause
+    return load_by_cause_[static_cast<std::size_t>(cause)];
+  }
   [[nodiscard]] const std::vector<HarmonicLoad>& harmonic_loads() const { return harmonic_loads_; }  ///< each rate once
   [[nodiscard]] Eigen::VectorXd load_at(double t) const;                                             ///< f, N
   [[nodiscard]] Eigen::VectorXd mesh_vector(int mesh, double t = 0) const;   ///< b at a time, dense
@@ -229,6 +236,7 @@ class LumpedSystem {
   std::vector<SpringElement> springs_;
   Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
   Eigen::VectorXd load_;
+  std::array<Eigen::VectorXd, 3> load_by_cause_;
   std::vector<HarmonicLoad> harmonic_loads_;
   std::shared_ptr<const Compiled> compiled_;
 };
@@ -259,7 +267,7 @@ class LumpedSystemBuilder {
   void add_circulatory(const LinearForm& row, const LinearForm& column, double value);
   /// Adds the Omega part of a damper (N s/m) to the housing in the turning frame: c (x' - Omega y), c (y' + Omega x).
   void add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping, double speed);
-  void add_load(const LinearForm& coordinate, double force);
+  void add_load(const LinearForm& coordinate, double force, LoadCause cause = LoadCause::none);
   /// Adds cosine x cos(rate t) + sine x sin(rate t), N.
   void add_harmonic_load(const LinearForm& coordinate, double rate, double cosine, double sine);
   int add_mesh(MeshElement mesh);  ///< its number
@@ -290,7 +298,12 @@ class LumpedSystemBuilder {
     double value;
   };
   std::vector<Term> mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
-  std::vector<std::pair<LinearForm, double>> load_;
+  struct Load {
+    LinearForm coordinate;
+    double force;
+    LoadCause cause;
+  };
+  std::vector<Load> load_;
   struct HarmonicTerm {
     LinearForm coordinate;
     double rate, cosine, sine;

@@ -70,7 +70,8 @@ void LumpedSystemBuilder::add(const LumpedSystem& system, const std::string& pre
         if (const double value = (*matrix)(i, j); value != 0)
           terms->push_back({moved({{static_cast<int>(i), 1.0}}), moved({{static_cast<int>(j), 1.0}}), value});
   for (int i = 0; i < system.dofs(); ++i) {
-    load_.emplace_back(moved({{i, 1.0}}), system.load_[i]);
+    for (const auto cause : {LoadCause::none, LoadCause::torque, LoadCause::rotation})
+      if (const double force = system.load(cause)[i]; force != 0) add_load(moved({{i, 1.0}}), force, cause);
     for (const auto& load : system.harmonic_loads_)
       add_harmonic_load(moved({{i, 1.0}}), load.rate, load.cosine[i], load.sine[i]);
   }
@@ -128,8 +129,8 @@ void LumpedSystemBuilder::add_housing_damper_rotation(const LinearForm& x, const
   add_circulatory(y, x, damping * speed);
 }
 
-void LumpedSystemBuilder::add_load(const LinearForm& coordinate, double force) {
-  load_.emplace_back(coordinate, force);
+void LumpedSystemBuilder::add_load(const LinearForm& coordinate, double force, LoadCause cause) {
+  load_.push_back({coordinate, force, cause});
 }
 
 void LumpedSystemBuilder::add_harmonic_load(const LinearForm& coordinate, double rate, double cosine, double sine) {
@@ -191,8 +192,12 @@ void LumpedSystemBuilder::assemble_matrices(LumpedSystem& system) const {
   system.damping_ = assembled(damping_, n);
   system.gyroscopic_ = assembled(gyroscopic_, n);
   system.load_ = Eigen::VectorXd::Zero(n);
-  for (const auto& [form, force] : load_)
-    for (const auto& [i, a] : form) system.load_[i] += a * force;
+  system.load_by_cause_.fill(system.load_);
+  for (const auto& load : load_)
+    for (const auto& [i, a] : load.coordinate) {
+      system.load_[i] += a * load.force;
+      system.load_by_cause_[static_cast<std::size_t>(load.cause)][i] += a * load.force;
+    }
   for (const auto& term : harmonic_load_) {
     auto& all = system.harmonic_loads_;
     auto of_rate = std::find_if(all.begin(), all.end(), [&](const auto& load) { return load.rate == term.rate; });

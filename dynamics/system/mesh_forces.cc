@@ -157,7 +157,7 @@ void LumpedSystem::apply_forces(Workspace& w, ContactStates states) const {
   double* tangent = w.law_tangent.data();
   for (const auto& element : laws_) tangent = apply_law_element(element, w, tangent);
   for (std::size_t m = 0; m < c.meshes.size(); ++m)
-    w.force[m] = w.elastic[m] + acting_damping(c.meshes[m], w.contact[m]) * w.delta_rate[m];
+    w.force[m] = w.elastic[m] + w.pace * acting_damping(c.meshes[m], w.contact[m]) * w.delta_rate[m];
 }
 
 void LumpedSystem::detect_contact(double t, const double* q, Workspace& w) const {

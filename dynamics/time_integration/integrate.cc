@@ -127,6 +127,7 @@ class Integration {
   }
 
   IntegratorStatistics run(const IntegratorOptions& options) {
+    problem_.pacing = options.pacing;
     begin(options);
     emit_samples();
     stepper_->restart(time_, stop_);
@@ -226,6 +227,7 @@ class Integration {
 
   void evaluate_meshes() {
     const auto y = stepper_->state();
+    problem_.set_pace(time_);
     system_.evaluate_meshes(time_, y.data(), y.data() + system_.dofs(), workspace_);
   }
 
@@ -261,7 +263,12 @@ IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, d
   check_options(given);
   IntegratorOptions options = given;
   if (options.method == Integrator::automatic)
-    options.method = choose_integrator(system, options.relative_tolerance).method;
+    options.method =
+        options.pacing ? Integrator::arkode_explicit : choose_integrator(system, options.relative_tolerance).method;
+  if (options.pacing && options.method != Integrator::arkode_explicit && options.method != Integrator::runge_kutta_4)
+    throw InputError("an implicit method cannot follow a course of speed and torque; use an explicit one");
+  if (options.pacing && observer.energy == EnergyTracking::on)
+    throw InputError("energies are not tracked while a system follows a course of speed and torque");
   require(state.q.size() == system.dofs() && state.v.size() == system.dofs(),
           fmt::format("a state of {} displacements and {} velocities for {} degrees of freedom", state.q.size(),
                       state.v.size(), system.dofs()));

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "dynamics/system/lumped_system.h"
+#include "dynamics/time_integration/pacing.h"
 
 namespace annulus::dynamics {
 
@@ -29,6 +30,9 @@ struct IntegratorOptions {
   std::optional<double> absolute_tolerance;
   double fixed_step = 0;        ///< s, runge_kutta_4 only
   long max_steps = 50'000'000;  ///< per ten thousand mesh cycles; a guard against a tolerance out of reach
+  /// The system follows a course: times are nominal ones, and velocities displacements over these. An explicit method
+  /// alone does so. Null: as the system was built.
+  const Pacing* pacing = nullptr;
 };
 
 struct IntegratorStatistics {

@@ -29,7 +29,9 @@ static int annulus_rhs(realtype t, N_Vector y, N_Vector dy, void* data) {
   const double* state = N_VGetArrayPointer(y);
   double* rate = N_VGetArrayPointer(dy);
   ++p.statistics.rhs_evaluations;
+  p.set_pace(t);
   p.system.rhs(t, state, rate, p.workspace);
+  if (p.pacing) p.pacing->correct(t, state, rate);
   const int n = 2 * p.system.dofs();
   if (p.track_energy) {
     const auto power = p.system.power(t, state, p.workspace);

@@ -23,6 +23,11 @@ struct StepperProblem {
   bool track_energy = false;
   StateTolerance tolerance{};
   IntegratorStatistics statistics{};
+  const Pacing* pacing = nullptr;  ///< IntegratorOptions::pacing
+  /// Before anything of the system is evaluated at time t.
+  void set_pace(double t) {
+    if (pacing) workspace.pace = pacing->at(t).speed;
+  }
   [[nodiscard]] int size() const { return 2 * system.dofs() + (track_energy ? 2 : 0); }
 };
 

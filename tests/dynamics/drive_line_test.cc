@@ -276,7 +276,7 @@ BOOST_AUTO_TEST_CASE(a_changing_torque_brings_backlash_within_reach) {
   pair.mesh_error = {};
   pair.half_backlash = 100e-6;
   const auto reach = [&] {
-    const auto [system, problem] = lumped_case(pair);
+    const auto [system, problem, turning] = lumped_case(pair);
     return reach_of_backlash(system, problem);
   };
   BOOST_TEST(reach() < 1e-9);

@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(four_mounts_as_one_bearing) {
   auto one = stages::bearing("trunnions", {Kind::ring}, {}, place, 4 * radial, 4 * axial, 2 * axial * radius * radius);
   on_axis.bearings.push_back(one);
   on_axis.plane.ring.torsional_support = 4 * radial * radius * radius / std::pow(s.plane.ring.radius, 2);
-  const auto a = modes(assemble(lumped(s))), b = modes(assemble(lumped(on_axis)));
+  const auto a = annulus::dynamics::modes(assemble(lumped(s))), b = annulus::dynamics::modes(assemble(lumped(on_axis)));
   BOOST_TEST_REQUIRE(a.modes.size() == b.modes.size());
   for (std::size_t i = 0; i < a.modes.size(); ++i)
     if (b.modes[i].frequency > 0)

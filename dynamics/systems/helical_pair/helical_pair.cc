@@ -232,8 +232,8 @@ LumpedSystem assemble(const HelicalPair& pair) {
   }
 
   const auto ends = pair.shaft_ends();
-  builder.add_load(pinion.u, ends.front().load);
-  builder.add_load(wheel.u, ends.back().load);
+  builder.add_load(pinion.u, ends.front().load, LoadCause::torque);
+  builder.add_load(wheel.u, ends.back().load, LoadCause::torque);
   return with_rotors(builder.build(), pair.rotors, ends);
 }
 

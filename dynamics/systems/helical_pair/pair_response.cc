@@ -168,7 +168,7 @@ double force_scale(const HelicalPair& pair) {
 }
 
 SteadyResponse pair_steady_state(const LumpedCase& lumped, const SimulationOptions& options) {
-  const auto& [system, problem] = lumped;
+  const auto& [system, problem, turning] = lumped;
   if (options.confirmation == Confirmation::always) return steady_response(system, problem, options);
   auto quick = options;
   quick.other_motions.starts = 0;
@@ -199,7 +199,8 @@ LumpedCase lumped_case(const HelicalPair& pair) {
   if (scale == 0)
     throw InputError(
         "a time response of a pair needs a torque or errors: torques of 0 N m and errors of 0 m excite nothing");
-  return {std::move(system), {pair.mesh_frequency(), pair.error_period(), scale, mean_stiffness(pair.mesh)}};
+  return {std::move(system), {pair.mesh_frequency(), pair.error_period(), scale, mean_stiffness(pair.mesh)},
+          turning_of(pair.shaft_ends())};
 }
 
 PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& options) {

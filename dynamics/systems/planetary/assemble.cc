@@ -78,7 +78,7 @@ void add_bearing_with_play(LumpedSystemBuilder& builder, const PlanetaryStage& s
                                                         {-along[1], along[0]}, distance > 0 ? size / distance : slope));
   builder.add_law({{first, second}, radial_law(law)});
   const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
-  builder.add_load(radial, stage.planet.mass * stage.carrier.radius * speed * speed);
+  builder.add_load(radial, stage.planet.mass * stage.carrier.radius * speed * speed, LoadCause::rotation);
 }
 
 /// Planet n: its own DOFs where the bearing gives way, else the carrier's motion at its bearing.
@@ -335,7 +335,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   const auto ends = stage.shaft_ends();
   for (const auto& [name, form] : {std::pair{"sun", &sun.u}, {"ring", &ring.u}, {"carrier", &carrier.u}}) {
     const auto end = std::find_if(ends.begin(), ends.end(), [&](const auto& e) { return e.name == name; });
-    if (end->load != 0) builder.add_load(*form, end->load);
+    if (end->load != 0) builder.add_load(*form, end->load, LoadCause::torque);
   }
   return with_rotors(builder.build(), stage.rotors, ends);
 }

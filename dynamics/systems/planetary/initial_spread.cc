@@ -35,7 +35,7 @@ InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOpt
         fmt::format("a spread over initial conditions needs a positive size of starts ({}), a positive share of "
                     "sameness ({}) and no negative number of starts ({})",
                     options.factor, options.same, options.random_starts));
-  const auto [system, problem] = lumped_case(stage);
+  const auto [system, problem, turning] = lumped_case(stage);
   const RandomStarts starts(system, problem, options.factor, options.seed);
   PointOptions point{.simulation = options.simulation, .motion = false};
   point.simulation.steady_state = SteadyState::time_integration;

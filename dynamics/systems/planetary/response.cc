@@ -85,11 +85,12 @@ LumpedCase lumped_case(const PlanetaryStage& stage) {
           {.mesh_frequency = stage.mesh_frequency(),
            .period_in_cycles = stage.error_period(),
            .force_scale = stage.mean_mesh_force(),
-           .stiffness = mean_stiffness(stage.sun_mesh)}};
+           .stiffness = mean_stiffness(stage.sun_mesh)},
+          turning_of(stage.shaft_ends())};
 }
 
 DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options) {
-  const auto [system, problem] = lumped_case(stage);
+  const auto [system, problem, turning] = lumped_case(stage);
   DynamicResponse response;
   response.mesh_frequency = problem.mesh_frequency;
   response.mean_mesh_force = problem.force_scale;

@@ -98,7 +98,7 @@ void add_shaft(LumpedSystemBuilder& builder, const std::vector<int>& first_dof, 
     const double sense = place.load() < 0 ? -1 : 1, r = from.end->radius / place.end->radius;
     element.b = element.b + (-sense * r) * u;  // lengths at the radius of the first body
     inverse += r * r / place.mass();
-    builder.add_load(u, -place.load());
+    builder.add_load(u, -place.load(), LoadCause::torque);
   }
   const double stiffness = shaft.stiffness / std::pow(from.end->radius, 2);
   element.excitation = ConstantStiffness{stiffness};
@@ -192,11 +192,11 @@ SteadyProblem steady_problem(const Train& train) {
 LumpedCase lumped_case(const Train& train) {
   auto system = assemble(train);
   check_ripples(train.rotors, train.shaft_ends());
-  return {std::move(system), steady_problem(train)};
+  return {std::move(system), steady_problem(train), turning_of(train.shaft_ends())};
 }
 
 TrainResponse simulate(const Train& train, const SimulationOptions& options) {
-  const auto [system, problem] = lumped_case(train);
+  const auto [system, problem, turning] = lumped_case(train);
   auto found = steady_response(system, problem, options);
   TrainResponse response;
   response.mesh_frequency = problem.mesh_frequency;

@@ -150,8 +150,8 @@ class TwoKVAssembler {
 
   void add_loads() {
     const auto ends = stage_.shaft_ends();
-    builder_.add_load(input_.u, ends[0].load);
-    builder_.add_load(output_.u, ends[1].load);
+    builder_.add_load(input_.u, ends[0].load, LoadCause::torque);
+    builder_.add_load(output_.u, ends[1].load, LoadCause::torque);
   }
 
   /// phi_i

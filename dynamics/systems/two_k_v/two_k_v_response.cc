@@ -136,12 +136,13 @@ LumpedCase lumped_case(const TwoKVStage& stage) {
                     stage.output_torque));
   return {assemble(stage),
           {stage.sun_mesh_frequency(), times_period(stage.planet_teeth, period_in_crank_turns(stage)),
-           stage.mean_arc_mesh_force(), mean_stiffness(stage.arc_mesh)}};
+           stage.mean_arc_mesh_force(), mean_stiffness(stage.arc_mesh)},
+          turning_of(stage.shaft_ends())};
 }
 
 TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& given) {
   auto options = given;
-  const auto [system, problem] = lumped_case(stage);
+  const auto [system, problem, turning] = lumped_case(stage);
   const double arc_force = problem.force_scale;
   TwoKVResponse response;
   response.largest_multiplier = shoot_for_start(stage, system, problem, options);

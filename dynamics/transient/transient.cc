@@ -1,0 +1,184 @@
+#include "dynamics/transient/transient.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/errors.h"
+#include "dynamics/figures/spectrum.h"
+#include "dynamics/statics/static_solver.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// Forces of meshes at equidistant nominal times, meshes x samples.
+struct Followed {
+  Eigen::MatrixXd force, elastic;
+};
+
+class CourseRun {
+ public:
+  CourseRun(const LumpedCase& of, const TransientOptions& options)
+      : system_(of.system),
+        frequency_(of.problem.mesh_frequency),
+        of_period_(of.problem.period_in_cycles),
+        options_(options),
+        pacing_(of.system, options.course, of.turning.dof, of.turning.velocity, options.accelerated_by),
+        workspace_(of.system.workspace()) {
+    auto& integrator = options_.integrator;
+    integrator.pacing = &pacing_;
+    if (!integrator.absolute_tolerance)
+      integrator.absolute_tolerance =
+          0.1 * integrator.relative_tolerance * of.problem.force_scale / of.problem.stiffness;
+    for (int m = 0; m < static_cast<int>(system_.meshes().size()); ++m)
+      if (system_.is_gear_mesh(m)) meshes_.push_back(m);
+    gears_ = static_cast<int>(meshes_.size());
+    for (int m = 0; m < static_cast<int>(system_.meshes().size()); ++m)
+      if (system_.meshes()[static_cast<std::size_t>(m)].shaft) meshes_.push_back(m);
+  }
+
+  TransientResponse run(double force_scale) && {
+    TransientResponse result;
+    for (const int m : meshes_) result.meshes.push_back(system_.meshes()[static_cast<std::size_t>(m)].name);
+    result.gears = gears_;
+    settle(result, force_scale);
+    const int cycles = std::max(1, static_cast<int>(std::ceil(pacing_.nominal_end() * frequency_ - 1e-9)));
+    const auto followed = advance(cycles);
+    result.statistics = statistics_;
+    tabulate(result, followed, cycles);
+    add_spectra(result, followed.force, cycles);
+    return result;
+  }
+
+ private:
+  /// Windows at the first speed and torque until their forces repeat.
+  void settle(TransientResponse& result, double force_scale) {
+    // Whole periods, where windows can show that the motion repeats.
+    constexpr int shortest = 20, longest = 100;
+    const int period = of_period_ > longest ? 1 : of_period_, window = (shortest + period - 1) / period * period;
+    const int windows = std::max(2, options_.most_settling_cycles / window);
+    state_.time = -windows * window / frequency_;
+    state_.q = static_path(system_, Eigen::VectorXd::Constant(1, state_.time)).displacement.col(0);
+    state_.v = Eigen::VectorXd::Zero(system_.dofs());
+    Eigen::VectorXd before;
+    for (int i = 0; i < windows; ++i) {
+      const auto followed = advance(window);
+      const Eigen::VectorXd peaks = followed.force.rowwise().maxCoeff();
+      result.settling_cycles += window;
+      const double wanted = options_.steady_tolerance * force_scale;
+      result.settled = period != of_period_ || (before.size() > 0 && (peaks - before).cwiseAbs().maxCoeff() <= wanted);
+      before = peaks;
+    }
+    state_.time = 0;  // but for rounding
+  }
+
+  Followed advance(int cycles) {
+    const int samples = cycles * options_.samples_per_cycle;
+    Followed followed{Eigen::MatrixXd(std::ssize(meshes_), samples), Eigen::MatrixXd(gears_, samples)};
+    IntegrationObserver observer;
+    observer.samples = samples;
+    observer.sample = [&](int index, const SystemState&) {
+      for (Eigen::Index row = 0; row < std::ssize(meshes_); ++row) {
+        const auto m = static_cast<std::size_t>(meshes_[static_cast<std::size_t>(row)]);
+        followed.force(row, index) = workspace_.force[m];
+        if (row < gears_) followed.elastic(row, index) = workspace_.elastic[m];
+      }
+    };
+    const auto statistics =
+        integrate(system_, state_, state_.time + cycles / frequency_, options_.integrator, workspace_, observer);
+    statistics_.steps += statistics.steps;
+    statistics_.rhs_evaluations += statistics.rhs_evaluations;
+    statistics_.contact_events += statistics.contact_events;
+    return followed;
+  }
+
+  void tabulate(TransientResponse& result, const Followed& followed, int cycles) const {
+    const int samples = options_.samples_per_cycle;
+    const Eigen::Index rows = followed.force.rows();
+    result.time.resize(cycles);
+    result.speed = result.torque = result.time;
+    result.largest.resize(rows, cycles);
+    result.smallest = result.mean = result.largest;
+    result.open = Eigen::VectorXd::Zero(gears_);
+    double duration = 0;
+    for (int c = 0; c < cycles; ++c) {
+      const auto now = pacing_.at((c + 0.5) / frequency_);
+      result.time[c] = now.time;
+      result.speed[c] = now.speed;
+      result.torque[c] = now.torque;
+      const auto force = followed.force.middleCols(c * samples, samples);
+      result.largest.col(c) = force.rowwise().maxCoeff();
+      result.smallest.col(c) = force.rowwise().minCoeff();
+      result.mean.col(c) = force.rowwise().mean();
+      const auto elastic = followed.elastic.middleCols(c * samples, samples);
+      duration += 1 / now.speed;
+      for (int m = 0; m < gears_; ++m)
+        result.open[m] += static_cast<double>((elastic.row(m).array() == 0).count()) / samples / now.speed;
+    }
+    result.open /= duration;
+  }
+
+  /// With a Hann window, which keeps its neighbours apart while the speed changes.
+  void add_spectra(TransientResponse& result, const Eigen::MatrixXd& force, int cycles) const {
+    result.spectrum_of = result.peak().mesh;
+    constexpr int window = TransientResponse::window_cycles;
+    const int samples = options_.samples_per_cycle, length = window * samples;
+    const int windows = cycles < window ? 0 : 1 + (cycles - window) / (window / 2);
+    Eigen::ArrayXd hann(length);
+    for (int i = 0; i < length; ++i) hann[i] = 1 - std::cos(2 * std::numbers::pi * i / length);
+    const auto orders = static_cast<Eigen::Index>(options_.highest_order * window) + 1;
+    result.amplitude.resize(orders, windows);
+    result.window_time.resize(windows);
+    result.window_speed.resize(windows);
+    for (int w = 0; w < windows; ++w) {
+      const int first = w * window / 2;
+      const auto now = pacing_.at((first + window / 2.0) / frequency_);
+      result.window_time[w] = now.time;
+      result.window_speed[w] = now.speed;
+      Eigen::VectorXd part = force.row(result.spectrum_of).segment(first * samples, length).transpose();
+      part = (part.array() - part.mean()) * hann;
+      const auto lines = spectrum(part, window);
+      result.order = lines.order.head(orders);
+      result.amplitude.col(w) = lines.amplitude.head(orders);
+    }
+  }
+
+  const LumpedSystem& system_;
+  double frequency_;
+  int of_period_;
+  TransientOptions options_;
+  Pacing pacing_;
+  LumpedSystem::Workspace workspace_;
+  std::vector<int> meshes_;
+  int gears_ = 0;
+  SystemState state_;
+  IntegratorStatistics statistics_;
+};
+
+}  // namespace
+
+TransientResponse::Peak TransientResponse::peak() const {
+  Peak peak;
+  for (int m = 0; m < gears; ++m)
+    for (Eigen::Index c = 0; c < time.size(); ++c)
+      for (const double force : {largest(m, c), smallest(m, c)})
+        if (std::abs(force) > std::abs(peak.force)) peak = {m, force, time[c], speed[c]};
+  return peak;
+}
+
+double TransientResponse::largest_of(int mesh) const {
+  return std::max(largest.row(mesh).maxCoeff(), -smallest.row(mesh).minCoeff());
+}
+
+TransientResponse follow_course(const LumpedCase& of, const TransientOptions& options) {
+  require(
+      options.samples_per_cycle >= 2 * options.highest_order,
+      fmt::format("{} samples per mesh cycle for orders up to {}", options.samples_per_cycle, options.highest_order));
+  return CourseRun(of, options).run(of.problem.force_scale);
+}
+
+}  // namespace annulus::dynamics

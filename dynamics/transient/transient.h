@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/steady_state/steady_response.h"
+#include "dynamics/time_integration/pacing.h"
+
+/// Motions of a system whose speed and torque change: run-up, run-down, overload, reversal.
+namespace annulus::dynamics {
+
+struct TransientOptions {
+  Course course;
+  AcceleratedBy accelerated_by = AcceleratedBy::drive;
+  IntegratorOptions integrator{};  ///< explicit; its pacing is set
+  int samples_per_cycle = 32;
+  double steady_tolerance = 1e-3;  ///< of the motion from which the course starts
+  int most_settling_cycles = 400;
+  double highest_order = 6;  ///< of the mesh frequency, in the spectra
+};
+
+/// What meshes do in every cycle of the fastest mesh.
+struct TransientResponse {
+  std::vector<std::string> meshes;          ///< those of gears, then shafts; per row
+  int gears = 0;                            ///< how many are meshes of gears
+  Eigen::VectorXd time, speed, torque;      ///< in the middle of each cycle: s; factors
+  Eigen::MatrixXd largest, smallest, mean;  ///< N, meshes x cycles
+  Eigen::VectorXd open;                     ///< share of the time without contact, per mesh of gears
+  int settling_cycles = 0;                  ///< before the course
+  bool settled = false;                     ///< the course starts from a steady motion
+  /// Spectra of the gear mesh with the largest force over windows of `window_cycles`, each half over the one before.
+  int spectrum_of = 0;
+  static constexpr int window_cycles = 16;
+  Eigen::VectorXd order, window_time, window_speed;  ///< of the mesh frequency; s; factor in the middle
+  Eigen::MatrixXd amplitude;                         ///< N, orders x windows
+  IntegratorStatistics statistics{};
+
+  struct Peak {
+    int mesh = 0;
+    double force = 0, time = 0, speed = 1;  ///< N, s, factor
+  };
+  /// The largest force of any mesh of gears, by amount.
+  [[nodiscard]] Peak peak() const;
+  /// Of a shaft (row), over the whole course.
+  [[nodiscard]] double largest_of(int mesh) const;
+};
+
+/// Throws what Pacing and integrate() throw.
+[[nodiscard]] TransientResponse follow_course(const LumpedCase& of, const TransientOptions& options);
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,262 @@
+#include "dynamics/transient/transient.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/units.h"
+#include "dynamics/system/drive_line.h"
+#include "dynamics/systems/helical_pair/pair_response.h"
+#include "dynamics/systems/planetary/response.h"
+#include "tests/dynamics/pairs.h"
+#include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
+
+/// Motions while speed and torque change.
+BOOST_AUTO_TEST_SUITE(transient)
+
+using namespace annulus::dynamics;
+namespace units = annulus::units;
+constexpr double pi = std::numbers::pi;
+
+/// Rotations alone, with backlash and all excitations of a pair.
+HelicalPair turning_pair() {
+  auto pair = pairs::held(pairs::error_paper());
+  pair.pinion.error = {20e-6, 0.3};
+  pair.wheel.error = {15e-6, 1.1};
+  pair.half_backlash = 30e-6;
+  pair.mesh_damping_ratio = 0.03;
+  return pair;
+}
+
+TransientOptions options_of(std::vector<Course::Point> points) {
+  TransientOptions options;
+  options.course.points = std::move(points);
+  options.integrator.relative_tolerance = 1e-9;
+  return options;
+}
+
+/// The same pair over the time, with absolute rotations: no pace, no forces of inertia beside those of the masses.
+class PairInTime {
+ public:
+  PairInTime(const HelicalPair& pair, const Course& course)
+      : pair_(pair), course_(course), c_(std::cos(pair.base_helix_angle)) {
+    for (const auto* gear : {&pair.pinion, &pair.wheel}) mass_.push_back(gear->inertia / (gear->radius * gear->radius));
+    rotation_ = pair.pinion.radius * pair.pinion_speed;
+  }
+  struct State {
+    double angle = 0;       ///< of the pinion in its course, rad
+    double u[2]{}, v[2]{};  ///< absolute, m and m/s
+  };
+  [[nodiscard]] double force(double t, const State& y) const {
+    const auto [speed, acceleration, torque] = at(t);
+    const double pinion = pair_.pinion.error.amount, wheel = pair_.wheel.error.amount,
+                 rate = speed * pair_.pinion_speed;
+    const double ratio = static_cast<double>(pair_.pinion.teeth) / pair_.wheel.teeth,
+                 mesh = pair_.pinion.teeth * y.angle;
+    double e = pair_.mesh_error.amount * std::sin(mesh + pair_.mesh_error.phase);
+    double e_rate = pair_.mesh_error.amount * pair_.pinion.teeth * rate * std::cos(mesh + pair_.mesh_error.phase);
+    e += pinion * std::sin(y.angle + pair_.pinion.error.phase) +
+         wheel * std::sin(ratio * y.angle + pair_.wheel.error.phase);
+    e_rate += pinion * rate * std::cos(y.angle + pair_.pinion.error.phase) +
+              wheel * ratio * rate * std::cos(ratio * y.angle + pair_.wheel.error.phase);
+    const double delta = c_ * (y.u[0] + y.u[1]) - e, half = pair_.half_backlash.value_or(0);
+    if (std::abs(delta) <= half) return 0;
+    const auto& wave = std::get<HarmonicStiffness>(pair_.mesh);
+    const double k = wave.mean * (1 + wave.ripple * std::cos(mesh - 2 * pi * wave.phase_shift));
+    const double damping = 2 * pair_.mesh_damping_ratio * std::sqrt(wave.mean * pair_.reduced_mass());
+    return k * (delta - std::copysign(half, delta)) + damping * (c_ * (y.v[0] + y.v[1]) - e_rate);
+  }
+  /// Classical Runge-Kutta steps.
+  void step(double t, double h, State& y) const {
+    const auto rate = [&](double time, const State& s) {
+      const auto [speed, acceleration, torque] = at(time);
+      const double f = force(time, s), load = torque * pair_.pinion_torque / pair_.pinion.radius;
+      // The pinion drives and turns both inertias faster.
+      const double faster = acceleration * rotation_ * (mass_[0] + mass_[1]);
+      State d;
+      d.angle = speed * pair_.pinion_speed;
+      for (const int i : {0, 1}) {
+        d.u[i] = s.v[i];
+        d.v[i] = (load + (i == 0 ? faster : 0) - c_ * f) / mass_[static_cast<std::size_t>(i)];
+      }
+      return d;
+    };
+    const auto moved = [](const State& s, double by, const State& d) {
+      State r = s;
+      r.angle += by * d.angle;
+      for (const int i : {0, 1}) r.u[i] += by * d.u[i], r.v[i] += by * d.v[i];
+      return r;
+    };
+    const auto a = rate(t, y), b = rate(t + h / 2, moved(y, h / 2, a)), c = rate(t + h / 2, moved(y, h / 2, b)),
+               d = rate(t + h, moved(y, h, c));
+    for (const auto& [part, of] : {std::pair{&a, 1.0}, {&b, 2.0}, {&c, 2.0}, {&d, 1.0}})
+      y = moved(y, h * of / 6, *part);
+  }
+  [[nodiscard]] double rotation() const { return rotation_; }
+
+ private:
+  struct Now {
+    double speed, acceleration, torque;
+  };
+  [[nodiscard]] Now at(double t) const {
+    std::size_t i = 0;
+    while (i + 2 < course_.points.size() && t >= course_.points[i + 1].time) ++i;
+    const auto &a = course_.points[i], &b = course_.points[i + 1];
+    const double slope = (b.speed - a.speed) / (b.time - a.time), share = (t - a.time) / (b.time - a.time);
+    return {a.speed + slope * (t - a.time), slope, a.torque + share * (b.torque - a.torque)};
+  }
+
+  const HelicalPair& pair_;
+  const Course& course_;
+  double c_, rotation_;
+  std::vector<double> mass_;
+};
+
+// A run-up, an overload that ends in back flanks, and a run-down, against an integration over the time with absolute
+// rotations, which knows neither nominal time nor pace.
+BOOST_AUTO_TEST_CASE(course_of_a_pair_against_absolute_rotations) {
+  annulus::test::Verification record("Course of speed and torque", "absolute rotations over the time");
+  const auto pair = turning_pair();
+  const auto of = lumped_case(pair);
+  Course course{{{0, 0.4, 0.8}, {0.12, 1.3, 1}, {0.2, 1.1, 1.6}, {0.26, 0.9, -0.7}, {0.35, 0.5, 0.9}}};
+  const Pacing pacing(of.system, course, of.turning.dof, of.turning.velocity, AcceleratedBy::drive);
+  SystemState state;
+  state.q = Eigen::VectorXd::Constant(2, 40e-6);
+  state.v = Eigen::VectorXd::Zero(2);
+  PairInTime::State other;
+  for (const int i : {0, 1}) {
+    other.u[i] = 40e-6;
+    other.v[i] = (i == 0 ? 1 : -1) * 0.4 * PairInTime(pair, course).rotation();
+  }
+  IntegratorOptions options;
+  options.relative_tolerance = 1e-10;
+  options.pacing = &pacing;
+  auto workspace = of.system.workspace();
+  std::vector<double> times, forces;
+  IntegrationObserver observer;
+  observer.samples = 900;
+  observer.sample = [&](int, const SystemState& s) {
+    times.push_back(pacing.at(s.time).time);
+    forces.push_back(workspace.force[0]);
+  };
+  (void)integrate(of.system, state, pacing.nominal_end(), options, workspace, observer);
+  const PairInTime exact(pair, course);
+  double t = 0, worst = 0, least = 0, most = 0;
+  constexpr double step = 2e-7;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto steps = static_cast<long>(std::ceil((times[i] - t) / step));
+    const double h = steps > 0 ? (times[i] - t) / static_cast<double>(steps) : 0;
+    for (long k = 0; k < steps; ++k) exact.step(t + static_cast<double>(k) * h, h, other);
+    t = times[i];
+    const double expected = exact.force(t, other);
+    worst = std::max(worst, std::abs(forces[i] - expected));
+    most = std::max(most, expected);
+    least = std::min(least, expected);
+  }
+  BOOST_TEST(least < -0.3 * pair.static_force());  // back flanks carried
+  record.at_most("mesh force, largest difference over the largest force", "", worst / most, 2e-4,
+                 "fixed steps at the contact events");
+}
+
+// At a constant pace the system is the one that was built at that speed: gyroscopic and centrifugal forces, dampers.
+BOOST_AUTO_TEST_CASE(constant_pace_is_another_speed) {
+  annulus::test::Verification record("Constant pace", "system built at that speed");
+  auto stage = stages::ring_paper();
+  stage.rotating_frame = true;
+  stage.carrier_speed *= 3;  // so that the frame matters
+  stage.sun.support = 4e7;
+  for (const double pace : {0.5, 1.6}) {
+    auto other = stage;
+    other.carrier_speed *= pace;
+    const auto found = lumped_case(stage), expected = lumped_case(other);
+    const Pacing pacing(found.system, {{{0, pace, 1}, {10, pace, 1}}}, found.turning.dof, found.turning.velocity,
+                        AcceleratedBy::drive);
+    BOOST_TEST((pacing.rotation() * pace - Pacing(expected.system, {{{0, 1, 1}, {10, 1, 1}}}, expected.turning.dof,
+                                                  expected.turning.velocity, AcceleratedBy::load)
+                                               .rotation())
+                   .cwiseAbs()
+                   .maxCoeff() < 1e-9 * pacing.rotation().cwiseAbs().maxCoeff());
+    const auto forces = [](const LumpedCase& of, const Pacing* with, double first_rate) {
+      SystemState state;
+      state.q = Eigen::VectorXd::LinSpaced(of.system.dofs(), 5e-6, 30e-6);
+      state.v = first_rate * Eigen::VectorXd::LinSpaced(of.system.dofs(), -1e-3, 2e-3);
+      IntegratorOptions options;
+      options.relative_tolerance = 1e-9;
+      options.absolute_tolerance = 1e-15;
+      options.method = Integrator::arkode_explicit;
+      options.pacing = with;
+      auto workspace = of.system.workspace();
+      std::vector<double> list;
+      IntegrationObserver observer;
+      observer.samples = 200;
+      observer.sample = [&](int, const SystemState&) {
+        list.insert(list.end(), workspace.force.begin(), workspace.force.end());
+      };
+      (void)integrate(of.system, state, 20 / of.problem.mesh_frequency, options, workspace, observer);
+      return list;
+    };
+    const auto a = forces(found, &pacing, 1 / pace), b = forces(expected, nullptr, 1);
+    double worst = 0, most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      worst = std::max(worst, std::abs(a[i] - b[i]));
+      most = std::max(most, std::abs(b[i]));
+    }
+    record.at_most("mesh forces of twenty cycles, largest difference over the largest force", "", worst / most, 1e-5,
+                   "tolerance of the integrators");
+  }
+}
+
+// Lewis (1932): a constant acceleration through resonance leaves a vibration of amplitude e w sqrt(pi / (2 a)).
+BOOST_AUTO_TEST_CASE(passage_through_resonance) {
+  annulus::test::Verification record("Passage through resonance", "method of stationary phase");
+  auto pair = turning_pair();
+  pair.half_backlash.reset();
+  pair.pinion.error = pair.wheel.error = {};
+  pair.mesh_damping_ratio = 1e-7;
+  const double stiffness = mean_stiffness(pair.mesh);
+  pair.mesh = ConstantStiffness{stiffness};
+  const double c = std::cos(pair.base_helix_angle);
+  const double inverse =
+      c * c *
+      (std::pow(pair.pinion.radius, 2) / pair.pinion.inertia + std::pow(pair.wheel.radius, 2) / pair.wheel.inertia);
+  const double natural = std::sqrt(stiffness * inverse), mesh = 2 * pi * pair.mesh_frequency();
+  const double first = 0.4 * natural / mesh, last = 2.2 * natural / mesh;
+  for (const double duration : {0.6, 2.4}) {
+    const auto found = follow_course(lumped_case(pair), options_of({{0, first, 1}, {duration, last, 1}}));
+    const double angular = (last - first) * mesh / duration;
+    const double expected = stiffness * pair.mesh_error.amount * natural * std::sqrt(pi / (2 * angular));
+    const Eigen::Index cycles = found.time.size(), tail = cycles / 8;
+    // The forced vibration beyond resonance comes on top.
+    const double swing = (found.largest.row(0).tail(tail).maxCoeff() - found.smallest.row(0).tail(tail).minCoeff()) / 2;
+    const double beside = stiffness * pair.mesh_error.amount / (1 - std::pow(1 / 2.1, 2)), high = swing - beside;
+    record.close("amplitude of the free vibration behind the resonance", "N", high, expected, 0.06,
+                 "forced vibration; the lowest order of the method");
+    BOOST_TEST(found.settled);
+    // The peak comes late, above the natural frequency, and below the steady one.
+    const auto peak = found.peak();
+    BOOST_TEST(peak.speed * mesh > natural);
+    BOOST_TEST(peak.speed * mesh < 1.4 * natural);
+    // Order 1 of the spectra is the forced vibration.
+    BOOST_TEST(std::abs(found.order[TransientResponse::window_cycles] - 1) < 1e-12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(refused_courses) {
+  const auto of = lumped_case(turning_pair());
+  const auto follow = [&](std::vector<Course::Point> points) {
+    (void)follow_course(of, options_of(std::move(points)));
+  };
+  BOOST_CHECK_THROW(follow({{0, 1, 1}}), annulus::InputError);
+  BOOST_CHECK_THROW(follow({{0.1, 1, 1}, {1, 1, 1}}), annulus::InputError);
+  BOOST_CHECK_THROW(follow({{0, 1, 1}, {1, 0, 1}}), annulus::InputError);
+  auto options = options_of({{0, 1, 1}, {1, 1, 1}});
+  options.integrator.method = Integrator::cvode_bdf;
+  BOOST_CHECK_THROW((void)follow_course(of, options), annulus::InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
