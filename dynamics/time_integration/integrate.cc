@@ -126,8 +126,8 @@ class Integration {
       if (system.meshes()[m].half_backlash.value_or(0.0) > 0) problem_.rooted.push_back(static_cast<int>(m));
   }
 
-  IntegratorStatistics run(const IntegratorOptions& options) {
-    problem_.pacing = options.pacing;
+  IntegratorStatistics run(const IntegratorOptions& options, const Pacing* pacing) {
+    problem_.pacing = pacing;
     begin(options);
     emit_samples();
     stepper_->restart(time_, stop_);
@@ -259,22 +259,22 @@ class Integration {
 
 IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, double end,
                                const IntegratorOptions& given, LumpedSystem::Workspace& workspace,
-                               const IntegrationObserver& observer) {
+                               const IntegrationObserver& observer, const Pacing* pacing) {
   check_options(given);
   IntegratorOptions options = given;
   if (options.method == Integrator::automatic)
     options.method =
-        options.pacing ? Integrator::arkode_explicit : choose_integrator(system, options.relative_tolerance).method;
-  if (options.pacing && options.method != Integrator::arkode_explicit && options.method != Integrator::runge_kutta_4)
+        pacing ? Integrator::arkode_explicit : choose_integrator(system, options.relative_tolerance).method;
+  if (pacing && options.method != Integrator::arkode_explicit && options.method != Integrator::runge_kutta_4)
     throw InputError("an implicit method cannot follow a course of speed and torque; use an explicit one");
-  if (options.pacing && observer.energy == EnergyTracking::on)
+  if (pacing && observer.energy == EnergyTracking::on)
     throw InputError("energies are not tracked while a system follows a course of speed and torque");
   require(state.q.size() == system.dofs() && state.v.size() == system.dofs(),
           fmt::format("a state of {} displacements and {} velocities for {} degrees of freedom", state.q.size(),
                       state.v.size(), system.dofs()));
   if (!(end > state.time))
     throw InputError(fmt::format("an integration from {:.9g} s must end later than at {:.9g} s", state.time, end));
-  return Integration(system, state, end, workspace, observer).run(options);
+  return Integration(system, state, end, workspace, observer).run(options, pacing);
 }
 
 }  // namespace annulus::dynamics

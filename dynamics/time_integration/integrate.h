@@ -30,9 +30,6 @@ struct IntegratorOptions {
   std::optional<double> absolute_tolerance;
   double fixed_step = 0;        ///< s, runge_kutta_4 only
   long max_steps = 50'000'000;  ///< per ten thousand mesh cycles; a guard against a tolerance out of reach
-  /// The system follows a course: times are nominal ones, and velocities displacements over these. An explicit method
-  /// alone does so. Null: as the system was built.
-  const Pacing* pacing = nullptr;
 };
 
 struct IntegratorStatistics {
@@ -69,10 +66,13 @@ struct IntegrationObserver {
 /// Contact events, |delta| = half backlash, are located as roots. The integrator restarts there and at the known jumps
 /// of rectangular stiffnesses.
 ///
+/// `pacing`: a course that the system follows. Times are then nominal ones, and velocities displacements over these;
+/// explicit methods alone do so, and energies are not tracked. Null: as the system was built.
+///
 /// Throws InputError for unusable options or an end that is not after the start. Throws SolverError, with time and
 /// cause, when the integrator fails or a value is not finite.
 IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, double end,
                                const IntegratorOptions& options, LumpedSystem::Workspace& workspace,
-                               const IntegrationObserver& observer = {});
+                               const IntegrationObserver& observer = {}, const Pacing* pacing = nullptr);
 
 }  // namespace annulus::dynamics

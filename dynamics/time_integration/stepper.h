@@ -23,7 +23,7 @@ struct StepperProblem {
   bool track_energy = false;
   StateTolerance tolerance{};
   IntegratorStatistics statistics{};
-  const Pacing* pacing = nullptr;  ///< IntegratorOptions::pacing
+  const Pacing* pacing = nullptr;  ///< of integrate()
   /// Before anything of the system is evaluated at time t.
   void set_pace(double t) {
     if (pacing) workspace.pace = pacing->at(t).speed;

@@ -15,9 +15,11 @@ namespace annulus::dynamics {
 
 namespace {
 
-/// Forces of meshes at equidistant nominal times, meshes x samples.
+/// Meshes at equidistant nominal times.
 struct Followed {
-  Eigen::MatrixXd force, elastic;
+  Eigen::MatrixXf force;  ///< N, meshes x samples: long courses have millions
+  Eigen::VectorXd open;   ///< s without contact, per mesh of gears
+  double duration = 0;    ///< s
 };
 
 class CourseRun {
@@ -30,7 +32,6 @@ class CourseRun {
         pacing_(of.system, options.course, of.turning.dof, of.turning.velocity, options.accelerated_by),
         workspace_(of.system.workspace()) {
     auto& integrator = options_.integrator;
-    integrator.pacing = &pacing_;
     if (!integrator.absolute_tolerance)
       integrator.absolute_tolerance =
           0.1 * integrator.relative_tolerance * of.problem.force_scale / of.problem.stiffness;
@@ -46,6 +47,7 @@ class CourseRun {
     for (const int m : meshes_) result.meshes.push_back(system_.meshes()[static_cast<std::size_t>(m)].name);
     result.gears = gears_;
     settle(result, force_scale);
+    result.nominal = nominal();
     const int cycles = std::max(1, static_cast<int>(std::ceil(pacing_.nominal_end() * frequency_ - 1e-9)));
     const auto followed = advance(cycles);
     result.statistics = statistics_;
@@ -67,7 +69,7 @@ class CourseRun {
     Eigen::VectorXd before;
     for (int i = 0; i < windows; ++i) {
       const auto followed = advance(window);
-      const Eigen::VectorXd peaks = followed.force.rowwise().maxCoeff();
+      const Eigen::VectorXd peaks = followed.force.rowwise().maxCoeff().cast<double>();
       result.settling_cycles += window;
       const double wanted = options_.steady_tolerance * force_scale;
       result.settled = period != of_period_ || (before.size() > 0 && (peaks - before).cwiseAbs().maxCoeff() <= wanted);
@@ -76,20 +78,28 @@ class CourseRun {
     state_.time = 0;  // but for rounding
   }
 
+  /// N, of the meshes in equilibrium under the nominal torque at time 0.
+  [[nodiscard]] Eigen::VectorXd nominal() const {
+    const auto path = static_path(system_, Eigen::VectorXd::Zero(1));
+    return path.force(meshes_, 0);
+  }
+
   Followed advance(int cycles) {
     const int samples = cycles * options_.samples_per_cycle;
-    Followed followed{Eigen::MatrixXd(std::ssize(meshes_), samples), Eigen::MatrixXd(gears_, samples)};
+    Followed followed{Eigen::MatrixXf(std::ssize(meshes_), samples), Eigen::VectorXd::Zero(gears_)};
     IntegrationObserver observer;
     observer.samples = samples;
-    observer.sample = [&](int index, const SystemState&) {
+    observer.sample = [&](int index, const SystemState& state) {
+      const double lasts = 1 / (pacing_.at(state.time).speed * options_.samples_per_cycle * frequency_);
+      followed.duration += lasts;
       for (Eigen::Index row = 0; row < std::ssize(meshes_); ++row) {
         const auto m = static_cast<std::size_t>(meshes_[static_cast<std::size_t>(row)]);
-        followed.force(row, index) = workspace_.force[m];
-        if (row < gears_) followed.elastic(row, index) = workspace_.elastic[m];
+        followed.force(row, index) = static_cast<float>(workspace_.force[m]);
+        if (row < gears_ && workspace_.elastic[m] == 0) followed.open[row] += lasts;
       }
     };
-    const auto statistics =
-        integrate(system_, state_, state_.time + cycles / frequency_, options_.integrator, workspace_, observer);
+    const auto statistics = integrate(system_, state_, state_.time + cycles / frequency_, options_.integrator,
+                                      workspace_, observer, &pacing_);
     statistics_.steps += statistics.steps;
     statistics_.rhs_evaluations += statistics.rhs_evaluations;
     statistics_.contact_events += statistics.contact_events;
@@ -103,27 +113,21 @@ class CourseRun {
     result.speed = result.torque = result.time;
     result.largest.resize(rows, cycles);
     result.smallest = result.mean = result.largest;
-    result.open = Eigen::VectorXd::Zero(gears_);
-    double duration = 0;
+    result.open = followed.open / followed.duration;
     for (int c = 0; c < cycles; ++c) {
       const auto now = pacing_.at((c + 0.5) / frequency_);
       result.time[c] = now.time;
       result.speed[c] = now.speed;
       result.torque[c] = now.torque;
-      const auto force = followed.force.middleCols(c * samples, samples);
+      const Eigen::MatrixXd force = followed.force.middleCols(c * samples, samples).cast<double>();
       result.largest.col(c) = force.rowwise().maxCoeff();
       result.smallest.col(c) = force.rowwise().minCoeff();
       result.mean.col(c) = force.rowwise().mean();
-      const auto elastic = followed.elastic.middleCols(c * samples, samples);
-      duration += 1 / now.speed;
-      for (int m = 0; m < gears_; ++m)
-        result.open[m] += static_cast<double>((elastic.row(m).array() == 0).count()) / samples / now.speed;
     }
-    result.open /= duration;
   }
 
   /// With a Hann window, which keeps its neighbours apart while the speed changes.
-  void add_spectra(TransientResponse& result, const Eigen::MatrixXd& force, int cycles) const {
+  void add_spectra(TransientResponse& result, const Eigen::MatrixXf& force, int cycles) const {
     result.spectrum_of = result.peak().mesh;
     constexpr int window = TransientResponse::window_cycles;
     const int samples = options_.samples_per_cycle, length = window * samples;
@@ -139,7 +143,7 @@ class CourseRun {
       const auto now = pacing_.at((first + window / 2.0) / frequency_);
       result.window_time[w] = now.time;
       result.window_speed[w] = now.speed;
-      Eigen::VectorXd part = force.row(result.spectrum_of).segment(first * samples, length).transpose();
+      Eigen::VectorXd part = force.row(result.spectrum_of).segment(first * samples, length).cast<double>().transpose();
       part = (part.array() - part.mean()) * hann;
       const auto lines = spectrum(part, window);
       result.order = lines.order.head(orders);

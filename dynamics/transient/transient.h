@@ -13,7 +13,7 @@ namespace annulus::dynamics {
 struct TransientOptions {
   Course course;
   AcceleratedBy accelerated_by = AcceleratedBy::drive;
-  IntegratorOptions integrator{};  ///< explicit; its pacing is set
+  IntegratorOptions integrator{};  ///< explicit
   int samples_per_cycle = 32;
   double steady_tolerance = 1e-3;  ///< of the motion from which the course starts
   int most_settling_cycles = 400;
@@ -24,6 +24,7 @@ struct TransientOptions {
 struct TransientResponse {
   std::vector<std::string> meshes;          ///< those of gears, then shafts; per row
   int gears = 0;                            ///< how many are meshes of gears
+  Eigen::VectorXd nominal;                  ///< N, in equilibrium under the nominal torque, per mesh
   Eigen::VectorXd time, speed, torque;      ///< in the middle of each cycle: s; factors
   Eigen::MatrixXd largest, smallest, mean;  ///< N, meshes x cycles
   Eigen::VectorXd open;                     ///< share of the time without contact, per mesh of gears

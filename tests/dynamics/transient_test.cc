@@ -135,7 +135,6 @@ BOOST_AUTO_TEST_CASE(course_of_a_pair_against_absolute_rotations) {
   }
   IntegratorOptions options;
   options.relative_tolerance = 1e-10;
-  options.pacing = &pacing;
   auto workspace = of.system.workspace();
   std::vector<double> times, forces;
   IntegrationObserver observer;
@@ -144,7 +143,7 @@ BOOST_AUTO_TEST_CASE(course_of_a_pair_against_absolute_rotations) {
     times.push_back(pacing.at(s.time).time);
     forces.push_back(workspace.force[0]);
   };
-  (void)integrate(of.system, state, pacing.nominal_end(), options, workspace, observer);
+  (void)integrate(of.system, state, pacing.nominal_end(), options, workspace, observer, &pacing);
   const PairInTime exact(pair, course);
   double t = 0, worst = 0, least = 0, most = 0;
   constexpr double step = 2e-7;
@@ -189,7 +188,6 @@ BOOST_AUTO_TEST_CASE(constant_pace_is_another_speed) {
       options.relative_tolerance = 1e-9;
       options.absolute_tolerance = 1e-15;
       options.method = Integrator::arkode_explicit;
-      options.pacing = with;
       auto workspace = of.system.workspace();
       std::vector<double> list;
       IntegrationObserver observer;
@@ -197,7 +195,7 @@ BOOST_AUTO_TEST_CASE(constant_pace_is_another_speed) {
       observer.sample = [&](int, const SystemState&) {
         list.insert(list.end(), workspace.force.begin(), workspace.force.end());
       };
-      (void)integrate(of.system, state, 20 / of.problem.mesh_frequency, options, workspace, observer);
+      (void)integrate(of.system, state, 20 / of.problem.mesh_frequency, options, workspace, observer, with);
       return list;
     };
     const auto a = forces(found, &pacing, 1 / pace), b = forces(expected, nullptr, 1);
