@@ -45,8 +45,8 @@ std::string row_text(const Scene& scene, const SweepInput& s) {
 std::vector<StudyPlan> plan_studies(const Scene& scene) {
   std::vector<StudyPlan> list;
   const auto sampling = sampling_of(scene);
-  const bool any = !scene.sweeps.empty() || !scene.grids.empty() || scene.load_spectrum || sampling ||
-                   scene.sensitivity || scene.optimise;
+  const bool any = !scene.sweeps.empty() || !scene.grids.empty() || scene.load_spectrum || !scene.transients.empty() ||
+                   sampling || scene.sensitivity || scene.optimise;
   if (!any || !scene.dynamics) return list;
   const auto system = make_system(scene);
   const auto variants = static_cast<long>(system->variants().size());
@@ -84,6 +84,15 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
     add_cases("[load_spectrum]",
               fmt::format("{} classes of {}", scene.load_classes.size(), fmt::join(scene.load_spectrum->inputs, ", ")),
               load_cases(scene));
+  if (const auto rough = scene.transients.empty() ? std::nullopt : system->rough_lumped())
+    for (std::size_t i = 0; i < scene.transients.size(); ++i) {
+      // Rough: a stage of ten meshes, its second integration and those on tables changed by their errors.
+      constexpr double per_cycle = 2e-3;
+      const auto& t = scene.transients[i];
+      add(fmt::format("[[transient]] {}", i + 1),
+          fmt::format("{}: {} s of changing speed and torque", t.name, to_text(t.time.back())), 1,
+          per_cycle * t.nominal_time() * rough->problem.mesh_frequency, {});
+    }
   if (sampling)
     add("[monte_carlo]",
         sampling->by_default

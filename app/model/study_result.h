@@ -12,6 +12,7 @@
 #include "core/not_known.h"
 #include "dynamics/optimisation/optimise.h"
 #include "dynamics/statistics/statistics.h"
+#include "dynamics/transient/transient.h"
 
 /// What studies find: named figures of many responses to changed inputs, whatever the kind of the stage.
 namespace annulus::app {
@@ -55,6 +56,21 @@ struct LoadSpectrumResult {
   };
   [[nodiscard]] Overall overall(std::size_t variant, const std::string& figure) const;
   [[nodiscard]] double duration() const;  ///< s
+};
+
+/// What a variant does while speed and torque follow a course.
+struct VariantCourse {
+  dynamics::TransientResponse response{};
+  Figure largest_force{not_known, not_known};         ///< N, of any gear mesh, by amount
+  Figure largest_over_nominal{not_known, not_known};  ///< the same over the force of that mesh under the nominal torque
+  std::vector<Figure> contact_loss{};                 ///< share of the time, per mesh of gears
+  std::vector<Figure> shaft_torque{};                 ///< the largest over the nominal one, per shaft
+  std::string failure{};                              ///< empty: none
+};
+
+struct TransientResult {
+  TransientInput input;
+  std::vector<VariantCourse> variants{};
 };
 
 struct FigureStatistics {
@@ -153,6 +169,7 @@ struct StudyResults {
   std::vector<SweepResult> sweeps{};
   std::vector<GridResult> grids{};
   std::optional<LoadSpectrumResult> load_spectrum{};
+  std::vector<TransientResult> transients{};
   std::optional<MonteCarloResult> monte_carlo{};
   std::optional<SensitivityResult> sensitivity{};
   std::optional<OptimiseResults> optimise{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "app/scene/key_checks.h"
 #include "app/scene/overrides.h"
@@ -32,6 +33,7 @@ class StudyChecker : KeyChecks {
     for (std::size_t i = 0; i < scene_.grids.size(); ++i) grid(scene_.grids[i], i);
     for (std::size_t i = 0; i < scene_.random_inputs.size(); ++i) random(scene_.random_inputs[i], i);
     load_spectrum();
+    for (std::size_t i = 0; i < scene_.transients.size(); ++i) transient(scene_.transients[i], i);
     optimise();
     if (scene_.monte_carlo && scene_.monte_carlo->samples == 1)
       problem("monte_carlo.samples", "one sample has no spread; give 0 for none, or 2 or more");
@@ -98,6 +100,23 @@ class StudyChecker : KeyChecks {
     }
     if (classes.empty()) problem("load_spectrum.inputs", "needs a [[load_spectrum.class]] at least");
     for (std::size_t i = 0; i < classes.size(); ++i) load_class(inputs, classes[i], i);
+  }
+
+  void transient(const TransientInput& t, std::size_t i) {
+    const auto before = scene_.transients.begin() + static_cast<std::ptrdiff_t>(i);
+    if (usable("transient.name", i) &&
+        std::any_of(scene_.transients.begin(), before, [&](const auto& other) { return other.name == t.name; }))
+      problem("transient.name", i, "is the name of another course");
+    if (!usable("transient.time_s", i)) return;
+    if (t.time.size() < 2) return problem("transient.time_s", i, "needs two times at least");
+    if (t.time.front() != 0 || std::adjacent_find(t.time.begin(), t.time.end(), std::greater_equal<>()) != t.time.end())
+      return problem("transient.time_s", i, "has to rise from 0");
+    for (const auto& [key, list] :
+         {std::pair{"transient.speed_factor", &t.speed}, {"transient.torque_factor", &t.torque}})
+      if (!list->empty() && usable(key, i) && list->size() != t.time.size())
+        problem(key, i, fmt::format("needs one value per time: {} values for {} times", list->size(), t.time.size()));
+    if (t.speed.empty() && t.torque.empty())
+      problem("transient.time_s", i, "is a course in which nothing changes; give speed_factor or torque_factor");
   }
 
   void load_class(const std::vector<std::string>& inputs, const LoadClassInput& load, std::size_t i) {

@@ -101,6 +101,36 @@ Table load_class_table() {
   return load.done();
 }
 
+Table transient_table() {
+  Declarations transient("transient",
+                         "Speed and torque that change in time: run-up, run-down, overload, reversal of the torque. "
+                         "Several tables are several courses. Each begins from the steady motion at its first speed "
+                         "and torque; both are straight between their points.",
+                         &Scene::transients);
+  transient.study();
+  const auto list = [&](const char* name, auto member, const char* meaning) {
+    return transient.key(name, member, meaning).longest(most_study_values).not_empty("value");
+  };
+  transient.key("name", &TransientInput::name, "Name in results.").required();
+  list("time_s", &TransientInput::time, "Times of the points, rising from 0.").from(0, 1e6).required();
+  list("speed_factor", &TransientInput::speed,
+       "Speed at each time, over that of [stage]. A standstill itself cannot be reached.")
+      .from(0.01, 10)
+      .absent("1 throughout");
+  list("torque_factor", &TransientInput::torque,
+       "Torque at each time, over that of [stage]. Below 0 it acts the other way round, through back flanks.")
+      .from(-10, 10)
+      .absent("1 throughout");
+  transient
+      .choice(
+          "inertia_turned_by", &TransientInput::turned_by,
+          {{"drive", TransientInput::Inertia::drive}, {"load", TransientInput::Inertia::load}},
+          "Which torque turns the inertias faster, beside torque_factor: that of the bodies that drive (a motor runs "
+          "up), or of those that are driven (a load that pulls along, or brakes).")
+      .fallback("drive", "a motor runs up");
+  return transient.done();
+}
+
 Table monte_carlo_table() {
   Declarations monte_carlo(
       "monte_carlo",
@@ -240,8 +270,8 @@ Table variable_table() {
 }  // namespace
 
 std::vector<Table> study_tables() {
-  return {sweep_table(),        grid_table(),        load_spectrum_table(), load_class_table(), monte_carlo_table(),
-          random_input_table(), sensitivity_table(), optimise_table(),      variable_table()};
+  return {sweep_table(),       grid_table(),         load_spectrum_table(), load_class_table(), transient_table(),
+          monte_carlo_table(), random_input_table(), sensitivity_table(),   optimise_table(),   variable_table()};
 }
 
 }  // namespace annulus::app

@@ -143,12 +143,13 @@ struct NamedOutcome {
 /// Local stresses and pressures beside the nominal ones of ISO 6336; empty without computed ones.
 [[nodiscard]] Blocks beside_iso_6336(const NamedMeshes& meshes);
 
-// studies.cc, sweeps.cc, grids.cc, load_spectrum.cc, spread.cc, sensitivity.cc, optimise.cc
+// studies.cc, sweeps.cc, grids.cc, load_spectrum.cc, transients.cc, spread.cc, sensitivity.cc, optimise.cc
 /// All studies but the samples, in their order on the page.
 [[nodiscard]] std::vector<Section> study_sections(const Scene& scene, const StudyResults& studies);
 [[nodiscard]] Section sweeps_section(const Scene& scene, const StudyResults& studies);
 [[nodiscard]] Section grids_section(const Scene& scene, const StudyResults& studies);
 [[nodiscard]] Section load_spectrum_section(const StudyResults& studies);
+[[nodiscard]] Section transients_section(const StudyResults& studies);
 [[nodiscard]] Section spread_section(const StudyResults& studies);  ///< Monte Carlo samples
 [[nodiscard]] Section sensitivity_section(const StudyResults& studies);
 [[nodiscard]] Section optimise_section(const StudyResults& studies);

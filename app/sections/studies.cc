@@ -31,7 +31,7 @@ std::string StudyOutcome::text() const {
 
 std::vector<Section> study_sections(const Scene& scene, const StudyResults& studies) {
   return {sweeps_section(scene, studies), grids_section(scene, studies), load_spectrum_section(studies),
-          sensitivity_section(studies), optimise_section(studies)};
+          transients_section(studies),    sensitivity_section(studies),  optimise_section(studies)};
 }
 
 }  // namespace annulus::app

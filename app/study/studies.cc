@@ -82,11 +82,30 @@ void check_directions(const Scene& scene) {
   }
 }
 
+void check_transients(const Scene& scene) {
+  if (scene.transients.empty()) return;
+  const auto system = make_system(scene);
+  if (!system->offers(SweepDirection::up))
+    throw InputError(fmt::format("{}: [[transient]] is not offered for stages of kind {}",
+                                 place_text(scene, "transient.time_s", 0), scene.stage.kind));
+  const auto rough = system->rough_lumped();
+  for (std::size_t i = 0; rough && i < scene.transients.size(); ++i) {
+    constexpr double most = 50000;
+    const double cycles = scene.transients[i].nominal_time() * rough->problem.mesh_frequency;
+    if (cycles > most)
+      throw InputError(
+          fmt::format("{}: transient.time_s: the course has {:.3g} mesh cycles; {:g} are possible. Use "
+                      "shorter times, as slower changes than these leave the motion steady",
+                      place_text(scene, "transient.time_s", i), cycles, most));
+  }
+}
+
 }  // namespace
 
 void check_studies(const Scene& scene) {
   if (!scene.dynamics) return;
   check_directions(scene);
+  check_transients(scene);
   for (const auto& study_case : all_cases(scene)) (void)change_scene(scene, study_case);
   const auto sampling = sampling_of(scene);
   if (!sampling) return;
@@ -119,6 +138,8 @@ StudyResults run_studies(const StudySubject& subject) {
   for (std::size_t i = 0; i < scene.grids.size(); ++i)
     timed(fmt::format("[[grid]] {}", i + 1), [&] { results.grids.push_back(run_grid(subject, i)); });
   if (scene.load_spectrum) timed("[load_spectrum]", [&] { results.load_spectrum = run_load_spectrum(subject); });
+  for (std::size_t i = 0; i < scene.transients.size(); ++i)
+    timed(fmt::format("[[transient]] {}", i + 1), [&] { results.transients.push_back(run_transient(subject, i)); });
   if (const auto sampling = sampling_of(scene))
     timed("[monte_carlo]", [&] { results.monte_carlo = run_monte_carlo(subject, *sampling); });
   if (scene.optimise) timed("[optimise]", [&] { results.optimise = run_optimise(subject); });

@@ -7,6 +7,7 @@
 
 #include "app/model/run_options.h"
 #include "app/model/system_run.h"
+#include "app/model/table_errors.h"
 #include "core/errors.h"
 #include "core/log.h"
 #include "dynamics/figures/shaft_results.h"
@@ -110,6 +111,18 @@ std::unique_ptr<LumpedModel> StudySubject::model(const StudyCase& changed, std::
   } catch (const InputError&) {
     rethrow_at(scene(), changed.where);
   }
+}
+
+FigureSet StudySubject::with_errors(std::size_t variant, const FigureSet& nominal,
+                                    const std::function<FigureSet(const LumpedModel&)>& evaluate) const {
+  const auto system = make_system(scene());
+  std::vector<const MeshResult*> tables;
+  for (const std::size_t i : system->meshes_of(variant)) tables.push_back(&tables_.at(i));
+  const auto on_tables = [&](const std::vector<const MeshResult*>& changed) {
+    return dynamics::Evaluation{evaluate(*system->model(variant, changed)), {}};
+  };
+  return with_table_errors({nominal, {}}, tables, on_tables,
+                           {.simulation = {}, .seeks_steady_state = false, .nominal_alike = true});
 }
 
 }  // namespace annulus::app

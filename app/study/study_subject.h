@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -38,6 +39,11 @@ class StudySubject {
   /// nominal results serve. The model refers to them. Throws InputError, naming the case, for a scene that is not a
   /// good one.
   [[nodiscard]] std::unique_ptr<LumpedModel> model(const StudyCase& changed, std::size_t variant) const;
+
+  /// The results `nominal` of the scene's own model with the errors that its tables bring. `evaluate` finds them from a
+  /// model on other tables.
+  [[nodiscard]] FigureSet with_errors(std::size_t variant, const FigureSet& nominal,
+                                      const std::function<FigureSet(const LumpedModel&)>& evaluate) const;
 
   /// OUT/<variant>/dynamics, which exists afterwards.
   [[nodiscard]] std::filesystem::path folder(std::size_t variant) const;

@@ -84,6 +84,33 @@ Json load_spectrum_json(const StudyResults& studies, std::size_t variant) {
   return json;
 }
 
+Json figure_json(const Figure& figure) {
+  return {{"value", json_number(figure.value)}, {"error", json_number(figure.error)}};
+}
+
+Json transient_json(const TransientResult& course, std::size_t number, std::size_t variant) {
+  const auto& found = course.variants.at(variant);
+  Json json = {{"name", course.input.name}, {"file", fmt::format("transient_{}.csv", number)}};
+  if (!found.failure.empty()) {
+    json["failure"] = found.failure;
+    return json;
+  }
+  const auto& r = found.response;
+  const auto peak = r.peak();
+  json["largest_mesh_force_N"] = figure_json(found.largest_force);
+  json["largest_over_nominal"] = figure_json(found.largest_over_nominal);
+  json["at"] = {{"mesh", r.meshes[static_cast<std::size_t>(peak.mesh)]},
+                {"time_s", json_number(peak.time)},
+                {"speed_factor", json_number(peak.speed)}};
+  for (std::size_t m = 0; m < found.contact_loss.size(); ++m)
+    json["contact_loss"][r.meshes[m]] = figure_json(found.contact_loss[m]);
+  for (std::size_t s = 0; s < found.shaft_torque.size(); ++s)
+    json["largest_shaft_torque_over_nominal"][r.meshes[static_cast<std::size_t>(r.gears) + s]] =
+        figure_json(found.shaft_torque[s]);
+  json["settled_before"] = r.settled;
+  return json;
+}
+
 }  // namespace
 
 Json variant_studies_json(const StudyResults& studies, std::size_t variant) {
@@ -119,6 +146,8 @@ Json variant_studies_json(const StudyResults& studies, std::size_t variant) {
                                        grid.variants.at(variant)));
   }
   if (studies.load_spectrum) all["load_spectrum"] = load_spectrum_json(studies, variant);
+  for (std::size_t n = 0; n < studies.transients.size(); ++n)
+    all["transients"].push_back(transient_json(studies.transients[n], n + 1, variant));
   return all;
 }
 

@@ -106,6 +106,64 @@ BOOST_AUTO_TEST_CASE(load_classes_that_do_not_fit_are_refused) {
   refused(test::replaced(one, "duration_h = 1", "duration_h = 0"), "duration_h");
 }
 
+// At the speed and torque of the stage a course is the steady motion; at twice the torque prescribed stiffnesses bear
+// twice the forces.
+BOOST_AUTO_TEST_CASE(courses_of_speed_and_torque) {
+  const test::TemporaryFolder folder("transients");
+  const std::string courses =
+      "[[transient]]\nname = \"as it is\"\ntime_s = [0, 0.02]\nspeed_factor = [1, 1]\n"
+      "[[transient]]\nname = \"overload\"\ntime_s = [0, 0.02, 0.03, 0.06]\ntorque_factor = [1, 1, 2, 2]\n"
+      "[[transient]]\nname = \"run-up\"\ntime_s = [0, 0.15]\nspeed_factor = [0.3, 1.2]\ninertia_turned_by = \"load\"\n";
+  const auto result = run_text(short_scene() + courses, folder.path() / "out");
+  const auto& found = result.studies.transients;
+  BOOST_TEST_REQUIRE(found.size() == 3U);
+  for (const auto& course : found) BOOST_TEST(course.variants[0].failure.empty(), course.variants[0].failure);
+  const auto series = Csv::read(folder.path() / "out/held/dynamics/time_series.csv");
+  const auto& still = found[0].variants[0].response;
+  BOOST_TEST(still.settled);
+  const auto cycles = still.time.size();
+  const auto times = column(series, "time_s"), forces = column(series, "sun_planet1_N");
+  double most = 0;
+  for (std::size_t i = 0; i < times.size() && times[i] < 0.02; ++i) most = std::max(most, forces[i]);
+  BOOST_TEST(still.largest.row(0).maxCoeff() == most, boost::test_tools::tolerance(5e-3));
+  BOOST_TEST(found[0].variants[0].largest_force.error < 0.05 * found[0].variants[0].largest_force.value);
+  const auto& overload = found[1].variants[0].response;
+  const auto last = overload.time.size() - 1;
+  BOOST_TEST(overload.torque[last] == 2.0);
+  // The mean of all planets: each has its share.
+  const double before = overload.mean.col(cycles / 2).head(overload.gears / 2).mean(),
+               after = overload.mean.col(last).head(overload.gears / 2).mean();
+  BOOST_TEST(after == 2 * before, boost::test_tools::tolerance(2e-2));
+  const auto& run_up = found[2].variants[0].response;
+  BOOST_TEST(run_up.speed[0] < 0.32);
+  BOOST_TEST(run_up.speed[run_up.time.size() - 1] > 1.18);
+  const auto csv = Csv::read(folder.path() / "out/held/dynamics/transient_2.csv");
+  BOOST_TEST(column(csv, "torque_factor").back() == 2.0);
+  BOOST_TEST(Csv::read(folder.path() / "out/held/dynamics/transient_3_waterfall.csv").rows.size() > 2U);
+  const auto json = nlohmann::json::parse(read_file(folder.path() / "out/summary.json"));
+  const auto& of_overload = json.at("rings").at("held").at("transients").at(1);
+  BOOST_TEST(of_overload.at("name") == "overload");
+  BOOST_TEST(of_overload.at("largest_over_nominal").at("value").get<double>() > 2);
+  BOOST_TEST(read_file(folder.path() / "out/report.html").find("Waterfall") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(courses_that_do_not_fit_are_refused) {
+  const auto refused = [&](const std::string& keys, const std::string& why) {
+    try {
+      (void)app::parse_scene(short_scene() + "[[transient]]\nname = \"a\"\n" + keys, "scene.toml");
+      BOOST_TEST(false, why);
+    } catch (const app::SceneError& error) {
+      BOOST_TEST(std::string(error.what()).find(why) != std::string::npos, error.what());
+    }
+  };
+  refused("time_s = [0]\nspeed_factor = [1]\n", "needs two times at least");
+  refused("time_s = [1, 2]\nspeed_factor = [1, 1]\n", "has to rise from 0");
+  refused("time_s = [0, 2, 2]\nspeed_factor = [1, 1, 1]\n", "has to rise from 0");
+  refused("time_s = [0, 2]\nspeed_factor = [1]\n", "1 values for 2 times");
+  refused("time_s = [0, 2]\nspeed_factor = [0, 1]\n", "speed_factor");
+  refused("time_s = [0, 2]\n", "nothing changes");
+}
+
 BOOST_AUTO_TEST_CASE(sweep_points_are_the_runs_they_stand_for) {
   const test::TemporaryFolder folder("sweep");
   const auto text = two_masses(short_scene());

@@ -162,6 +162,47 @@ BOOST_AUTO_TEST_CASE(course_of_a_pair_against_absolute_rotations) {
                  "fixed steps at the contact events");
 }
 
+// Over a run-up the work of the torques, those for the inertias among them, is what the masses gain and the dampers
+// lose. Velocities are those over the time, rotations absolute.
+BOOST_AUTO_TEST_CASE(energy_over_a_run_up) {
+  annulus::test::Verification record("Energy over a run-up", "work of all torques");
+  const auto pair = turning_pair();
+  const auto of = lumped_case(pair);
+  const Pacing pacing(of.system, {{{0, 0.5, 1}, {0.1, 1.5, 1.3}, {0.2, 1.2, 0.6}}}, of.turning.dof, of.turning.velocity,
+                      AcceleratedBy::drive);
+  const Eigen::VectorXd mass = of.system.mass().diagonal(), nominal = pacing.rotation();
+  SystemState state;
+  state.q = Eigen::VectorXd::Constant(2, 40e-6);
+  state.v = Eigen::VectorXd::Zero(2);
+  IntegratorOptions options;
+  options.relative_tolerance = 1e-9;
+  auto workspace = of.system.workspace();
+  struct Sample {
+    double time, kinetic, power, by_mesh;
+  };
+  std::vector<Sample> samples;
+  IntegrationObserver observer;
+  observer.samples = 60000;
+  observer.sample = [&](int, const SystemState& s) {
+    const auto now = pacing.at(s.time);
+    const Eigen::VectorXd v = now.speed * (nominal + s.v);
+    Eigen::VectorXd torque = now.torque * of.system.load(LoadCause::torque);
+    torque[0] += now.acceleration * nominal.dot(mass.asDiagonal() * nominal) / nominal[0];
+    const double approach_rate = of.system.mesh_vector(0).dot(v);
+    samples.push_back({now.time, v.dot(mass.asDiagonal() * v) / 2, torque.dot(v), workspace.force[0] * approach_rate});
+  };
+  (void)integrate(of.system, state, pacing.nominal_end(), options, workspace, observer, &pacing);
+  double work = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const auto &a = samples[i - 1], &b = samples[i];
+    work += (b.time - a.time) * (a.power - a.by_mesh + b.power - b.by_mesh) / 2;
+  }
+  const double gained = samples.back().kinetic - samples.front().kinetic;
+  record.close("kinetic energy gained", "J", gained, work, 1e-5, "trapezoidal rule over 60000 samples");
+  record.close("kinetic energy of the rotation", "J", gained,
+               nominal.dot(mass.asDiagonal() * nominal) / 2 * (1.2 * 1.2 - 0.5 * 0.5), 1e-3, "vibration");
+}
+
 // At a constant pace the system is the one that was built at that speed: gyroscopic and centrifugal forces, dampers.
 BOOST_AUTO_TEST_CASE(constant_pace_is_another_speed) {
   annulus::test::Verification record("Constant pace", "system built at that speed");

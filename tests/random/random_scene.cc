@@ -233,6 +233,7 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"statics.*", "of annulus statics alone"},
       {"dynamics.mesh_cycles", "a length of motion, without a steady state"},
       {"rotor.*", "put on a body that turns"},
+      {"transient.*", "courses of speed and torque, which have suites of their own"},
   };
   return keys;
 }

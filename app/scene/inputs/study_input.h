@@ -82,6 +82,24 @@ struct LoadClassInput {
   std::vector<double> values;  ///< one per input
 };
 
+/// Speed and torque that change in time.
+struct TransientInput {
+  enum class Inertia { drive, load };
+  std::string name;
+  std::vector<double> time;           ///< s, from 0 on
+  std::vector<double> speed, torque;  ///< factors, one per time; empty: 1
+  Inertia turned_by = Inertia::drive;
+  [[nodiscard]] double factor_of_speed(std::size_t i) const { return speed.empty() ? 1 : speed.at(i); }
+  [[nodiscard]] double factor_of_torque(std::size_t i) const { return torque.empty() ? 1 : torque.at(i); }
+  /// Over the whole course: rotations over those in as many seconds of the nominal speed, s.
+  [[nodiscard]] double nominal_time() const {
+    double sum = 0;
+    for (std::size_t i = 1; i < time.size(); ++i)
+      sum += (factor_of_speed(i) + factor_of_speed(i - 1)) / 2 * (time[i] - time[i - 1]);
+    return sum;
+  }
+};
+
 struct SensitivityInput {
   std::vector<std::string> inputs;  ///< empty: the supports, damping ratios and backlash
   double factor = 0;
@@ -93,6 +111,7 @@ struct StudyInput {
   std::vector<GridInput> grids;
   std::optional<LoadSpectrumInput> load_spectrum;
   std::vector<LoadClassInput> load_classes;
+  std::vector<TransientInput> transients;
   std::optional<MonteCarloInput> monte_carlo;
   std::vector<RandomInput> random_inputs;
   std::optional<SensitivityInput> sensitivity;
