@@ -84,6 +84,8 @@ Pacing::Pacing(const LumpedSystem& system, Course course, const std::string& dof
 }
 
 Pacing::Now Pacing::at(double nominal) const {
+  if (const auto& first = course_.points.front(); nominal < 0)
+    return {nominal / first.speed, first.speed, first.torque, 0};
   const auto next = std::upper_bound(nominal_.begin() + 1, nominal_.end() - 1, nominal) - nominal_.begin();
   const auto &a = course_.points[static_cast<std::size_t>(next) - 1],
              &b = course_.points[static_cast<std::size_t>(next)];

@@ -8,8 +8,8 @@
 
 namespace annulus::dynamics {
 
-/// A course of speed and torque in time, in factors of those for which a system was built; straight between its points
-/// and constant behind the last one.
+/// A course of speed and torque in time, in factors of those for which a system was built; straight between its points,
+/// constant before the first and behind the last one.
 struct Course {
   struct Point {
     double time = 0;               ///< s, from 0 on, rising
@@ -43,7 +43,7 @@ class Pacing {
 
   [[nodiscard]] double duration() const { return course_.points.back().time; }  ///< s
   [[nodiscard]] double nominal_end() const { return nominal_.back(); }          ///< s, of nominal time
-  /// At a nominal time.
+  /// At a nominal time; before 0 and behind the end nothing changes.
   struct Now {
     double time = 0;  ///< s
     double speed = 1, torque = 1;
