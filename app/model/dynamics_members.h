@@ -42,6 +42,7 @@ struct Members<dynamics::TableStiffness> {
 ANNULUS_MEMBERS(dynamics::IntegratorOptions, method, relative_tolerance, absolute_tolerance, fixed_step, max_steps);
 ANNULUS_MEMBERS(dynamics::PeriodicOptions, samples, sampling_tolerance, max_samples, max_ahead, tolerance,
                 max_iterations);
+ANNULUS_MEMBERS(dynamics::StructuralDamping, modal_ratio, of_mass, of_stiffness);
 ANNULUS_MEMBERS(dynamics::SystemState, time, q, v, supplied, dissipated);
 /// The number of threads changes no result.
 template <>

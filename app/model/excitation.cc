@@ -35,6 +35,10 @@ std::optional<StiffnessTable> table_behind(const dynamics::MeshExcitation& excit
   return numbers;
 }
 
+dynamics::StructuralDamping structural_damping(const DynamicsInput& input) {
+  return {input.modal_damping_ratio, input.rayleigh_mass, input.rayleigh_stiffness};
+}
+
 dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency) {
   dynamics::SimulationOptions options;
   options.tolerance_rule =

@@ -4,6 +4,7 @@
 
 #include "app/model/mesh_result.h"
 #include "app/scene/scene.h"
+#include "dynamics/modes/structural_damping.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "dynamics/system/mesh_excitation.h"
 
@@ -21,6 +22,8 @@ namespace annulus::app {
 /// scene prescribes the stiffness.
 [[nodiscard]] std::optional<StiffnessTable> table_behind(const dynamics::MeshExcitation& excitation,
                                                          const StiffnessTable& table);
+
+[[nodiscard]] dynamics::StructuralDamping structural_damping(const DynamicsInput& input);
 
 /// What [dynamics] says of the integration, whatever the kind of stage; fixed steps are counted per cycle of this
 /// frequency (Hz).

@@ -113,6 +113,21 @@ Table dynamics_table() {
       .required()
       .from(0, 2);
   lumped
+      .key("modal_damping_ratio", &DynamicsInput::modal_damping_ratio,
+           "Damping ratio of every mode of the whole system at the mean mesh stiffness, beside meshes and bearings.")
+      .fallback(0.0, "none")
+      .from(0, 2);
+  lumped
+      .key("rayleigh_mass_per_s", &DynamicsInput::rayleigh_mass,
+           "Rayleigh damping, beside meshes and bearings: this times the mass.")
+      .fallback(0.0, "none")
+      .from(0, 1e6);
+  lumped
+      .key("rayleigh_stiffness_s", &DynamicsInput::rayleigh_stiffness,
+           "Rayleigh damping: this times the stiffness, of meshes while they touch.")
+      .fallback(0.0, "none")
+      .from(0, 1);
+  lumped
       .choice("mesh_damping", &DynamicsInput::mesh_damping,
               {{"in_contact", MeshDamping::in_contact}, {"always", MeshDamping::always}},
               "Contact state in which mesh damping acts. `always` is the literal form of the papers; separated flanks "

@@ -57,6 +57,9 @@ Declarations<MeshInput> declare_mesh(Declarations<MeshInput> t, const MeshKeys& 
   t.key("half_backlash_um", &MeshInput::half_backlash, "Half the backlash of this mesh along the line of action.")
       .from(0, 1e4)
       .absent("that of [dynamics]");
+  t.key("damping_ratio", &MeshInput::damping_ratio, "Damping ratio ζ of this mesh: c = 2ζ√(k m_e).")
+      .from(0, 2)
+      .absent("that of [dynamics]");
   t.key("file", &MeshInput::file,
         "Stiffness table (CSV); the path is relative to the scene. Either a table that annulus wrote, or columns of "
         "another program (docs/exchange.md): mesh_phase with stiffness_N_per_m, or with lte_um and load_N.")

@@ -40,6 +40,8 @@ inline constexpr Unit key_units[] = {
     {"_N", "N", 1},
     {"_m_per_s2", "m/s²", 1},
     {"_h", "h", units::hour},
+    {"_per_s", "1/s", 1},
+    {"_s", "s", 1},
 };
 
 template <class T>

@@ -33,7 +33,8 @@ void drop_gears(std::vector<Table>& tables) {
 }
 void drop_meshes(std::vector<Table>& tables) {
   auto& dynamics = by_path(tables, "dynamics")->parameters;
-  for (const auto* name : {"half_backlash_um", "mesh_damping_ratio", "mesh_damping", "load_dependence"})
+  for (const auto* name : {"half_backlash_um", "mesh_damping_ratio", "modal_damping_ratio", "rayleigh_mass_per_s",
+                           "rayleigh_stiffness_s", "mesh_damping", "load_dependence"})
     dynamics.erase(by_name(dynamics, name));
 }
 

@@ -126,8 +126,7 @@ class SpaceBodies {
       builder_.add_mass(forms.u, rotating);
       const bool coupled = supports_.coupling_that_turns(body.body) != nullptr;
       builder_.add_spring(forms.u, coupled ? 0 : body.torsional_support,
-                          critical_share(frame_.support_damping_ratio, body.torsional_support, rotating),
-                          name + "_support_u");
+                          critical_share(body.damping_ratio, body.torsional_support, rotating), name + "_support_u");
     }
     forms_.push_back(std::move(forms));
   }
@@ -293,7 +292,7 @@ class SpaceBodies {
     return all;
   }
 
-  /// Every mode of bodies on their bearings has the damping ratio of the supports: C = 2 zeta M^1/2 (M^-1/2 K
+  /// Every mode of a body on its bearings has its damping ratio: C = 2 zeta M^1/2 (M^-1/2 K
   /// M^-1/2)^1/2 M^1/2. With a bearing in the middle these are the dampers of the plane.
   void add_dampers() {
     for (const auto& together : bodies_together()) {
@@ -302,7 +301,10 @@ class SpaceBodies {
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(inverse * stiffness_of(together) * inverse);
       const Eigen::MatrixXd rates = modes.eigenvectors() * modes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
                                     modes.eigenvectors().transpose();
-      const Eigen::MatrixXd damping = 2 * frame_.support_damping_ratio * root * rates * root;
+      Eigen::VectorXd share(rates.rows());  // of both sides: the ratio itself where all bodies have the same
+      for (const auto& body : together.bodies)
+        share.segment<5>(together.first_of(body)).setConstant(std::sqrt(data_of(body).damping_ratio));
+      const Eigen::MatrixXd damping = 2 * root * share.asDiagonal() * rates * share.asDiagonal() * root;
       Forms all, turned;
       for (const auto& body : together.bodies) {
         const auto d = against(forms_[number(body)], seat_(forms_, body, together.on));

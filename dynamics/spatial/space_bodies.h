@@ -23,13 +23,13 @@ struct SpaceBody {
   double mass_place = 0;         ///< m, z of the centre of mass from the middle; 0 of planets
   double spin = 0;               ///< rad/s about its axis, in space
   double torsional_support = 0;  ///< N/m on the radius; `rigid`: it does not turn beside its speed
+  double damping_ratio = 0;      ///< of its bearings; of modes in which several bodies move, mixed
 };
 
 /// What all bodies have in common.
 struct SpaceFrame {
-  double speed = 0;                  ///< rad/s, of the axes in which they are described
-  double carrier_speed = 0;          ///< rad/s, past what stands in the housing
-  double support_damping_ratio = 0;  ///< of every mode of a body on its bearings
+  double speed = 0;          ///< rad/s, of the axes in which they are described
+  double carrier_speed = 0;  ///< rad/s, past what stands in the housing
 };
 
 /// Coordinates (x, y, z, about x, about y) of the body `on` in the middle of another one and in its axes; 5 empty ones

@@ -263,6 +263,10 @@ class LumpedSystemBuilder {
   void add_rotating_stiffness(const LinearForm& a, const LinearForm& b, double value);
   /// Adds a spring (N/m) and a damper (N s/m) along a coordinate: K += k a a^T, C += c a a^T.
   void add_spring(const LinearForm& coordinate, double stiffness, double damping, const std::string& name = {});
+  /// Adds damping (N s/m): C += value row column^T. The sum has to be symmetric.
+  void add_damping(const LinearForm& row, const LinearForm& column, double value);
+  /// Makes the damper of a mesh that was added before stronger, by N s/m.
+  void add_mesh_damping(int mesh, double damping);
   /// Adds a force (N/m x `column`) on `row`: K_Omega += value row column^T.
   void add_circulatory(const LinearForm& row, const LinearForm& column, double value);
   /// Adds the Omega part of a damper (N s/m) to the housing in the turning frame: c (x' - Omega y), c (y' + Omega x).

@@ -123,6 +123,14 @@ void LumpedSystemBuilder::add_spring(const LinearForm& coordinate, double stiffn
   damping_.push_back({coordinate, coordinate, damping});
 }
 
+void LumpedSystemBuilder::add_damping(const LinearForm& row, const LinearForm& column, double value) {
+  damping_.push_back({row, column, value});
+}
+
+void LumpedSystemBuilder::add_mesh_damping(int mesh, double damping) {
+  meshes_.at(static_cast<std::size_t>(mesh)).damping += damping;
+}
+
 void LumpedSystemBuilder::add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping,
                                                       double speed) {
   add_circulatory(x, y, -damping * speed);

@@ -104,6 +104,7 @@ struct MeshInput {
   Compare compare = Compare::none;  ///< two_k_v only
   std::optional<double> mean, ripple, duty, phase;
   std::optional<double> half_backlash;  ///< instead of that of [dynamics]
+  std::optional<double> damping_ratio;  ///< likewise
   std::optional<std::string> file;
   std::optional<double> single_stiffness;  ///< c' of ISO 6336-1, Pa
 };
@@ -111,6 +112,7 @@ struct MeshInput {
 struct DynamicsInput {
   double half_backlash = 0;
   double mesh_damping_ratio = 0, support_damping_ratio = 0;
+  double modal_damping_ratio = 0, rayleigh_mass = 0, rayleigh_stiffness = 0;  ///< 1, 1/s, s
   MeshDamping mesh_damping = MeshDamping::in_contact;
   dynamics::LoadDependence load_dependence = dynamics::LoadDependence::table;
   RimCoupling rim_coupling = RimCoupling::automatic;

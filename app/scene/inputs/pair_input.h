@@ -14,6 +14,7 @@ enum class ErrorAmount { sample, exact };
 /// A gear of a helical pair; its bearings: `rigid` drops the DOF.
 struct PairGearInput : HubGearInput {
   double bearing_transverse = rigid, bearing_axial = rigid;
+  std::optional<double> damping_ratio;  ///< of its bearings; absent: that of [dynamics]
 };
 
 /// Composite deviations of both gears of a pair as random amplitudes (dynamics/manufacturing_error.h).

@@ -50,6 +50,8 @@ struct SupportInput {
   std::optional<double> pin_diameter, pin_length;  ///< m
   /// Absent: rigid of the member that is held, none of the others (torsional_support).
   std::optional<double> sun_torsional, ring_torsional, carrier_torsional;
+  /// Damping ratios; absent: that of [dynamics].
+  std::optional<double> sun_damping, ring_damping, carrier_damping, planet_damping;
 
   [[nodiscard]] double planet_bearing(std::vector<double> SupportInput::*direction, std::size_t n) const {
     const auto& own = this->*direction;

@@ -11,7 +11,8 @@
 namespace annulus {
 
 ANNULUS_MEMBERS(dynamics::ErrorWave, amount, phase);
-ANNULUS_MEMBERS(dynamics::PairGear, teeth, mass, inertia, radius, bearing_transverse, bearing_axial, error);
+ANNULUS_MEMBERS(dynamics::PairGear, teeth, mass, inertia, radius, bearing_transverse, bearing_axial, error,
+                damping_ratio);
 template <>
 struct Members<dynamics::PairSpace> {
   template <class Space>
@@ -22,7 +23,8 @@ struct Members<dynamics::PairSpace> {
   }
 };
 ANNULUS_MEMBERS(dynamics::HelicalPair, pinion, wheel, base_helix_angle, mesh, mesh_error, half_backlash, mesh_damping,
-                bearing_damping, damping_without_contact, pinion_speed, pinion_torque, space, rotors);
+                bearing_damping, structural_damping, damping_without_contact, pinion_speed, pinion_torque, space,
+                rotors);
 
 }  // namespace annulus
 

@@ -83,8 +83,11 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
   pair.mesh = mesh;
   pair.mesh_error = {mesh_error, e.mesh_error_phase};
   pair.half_backlash = scene.pinion_wheel.half_backlash.value_or(d.half_backlash);
-  pair.mesh_damping_ratio = d.mesh_damping_ratio;
+  pair.mesh_damping_ratio = scene.pinion_wheel.damping_ratio.value_or(d.mesh_damping_ratio);
   pair.bearing_damping_ratio = d.support_damping_ratio;
+  pair.pinion.damping_ratio = scene.pinion.damping_ratio;
+  pair.wheel.damping_ratio = scene.wheel.damping_ratio;
+  pair.structural_damping = structural_damping(d);
   pair.damping_without_contact = d.mesh_damping == MeshDamping::always;
   pair.pinion_speed = scene.stage.pinion_speed;
   pair.pinion_torque = scene.stage.pinion_torque;

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <tuple>
 
 #include "app/scene/gear_tables.h"
@@ -249,6 +251,13 @@ Table supports_table() {
             "Torsional support of the sun, in u = base radius × angle.");
   torsional("carrier_torsional_N_per_m", &SupportInput::carrier_torsional,
             "Torsional support of the carrier, in u = centre distance × angle.");
+  for (const auto& [name, member, what] : {std::tuple{"sun_damping_ratio", &SupportInput::sun_damping, "sun"},
+                                           {"ring_damping_ratio", &SupportInput::ring_damping, "ring"},
+                                           {"carrier_damping_ratio", &SupportInput::carrier_damping, "carrier"},
+                                           {"planet_damping_ratio", &SupportInput::planet_damping, "planets"}})
+    supports.key(name, member, fmt::format("Damping ratio of bearings and supports of the {}.", what))
+        .from(0, 2)
+        .absent("dynamics.support_damping_ratio");
   return supports.done();
 }
 

@@ -11,8 +11,8 @@ namespace annulus {
 
 ANNULUS_MEMBERS(dynamics::Deviation, amount, phase);
 ANNULUS_MEMBERS(dynamics::BodyErrors, eccentricity, position);
-ANNULUS_MEMBERS(dynamics::CentralBody, mass, inertia, radius, support, torsional_support, errors);
-ANNULUS_MEMBERS(dynamics::PlanetBody, mass, inertia, radius);
+ANNULUS_MEMBERS(dynamics::CentralBody, mass, inertia, radius, support, torsional_support, errors, damping_ratio);
+ANNULUS_MEMBERS(dynamics::PlanetBody, mass, inertia, radius, damping_ratio);
 ANNULUS_MEMBERS(dynamics::PlanetBearing, radial, tangential, play, pin);
 ANNULUS_MEMBERS(dynamics::StageSpace::TiltInertia, sun, ring, carrier, planet);
 ANNULUS_MEMBERS(dynamics::StageSpace::MassPlace, sun, ring, carrier);
@@ -27,9 +27,9 @@ struct Members<dynamics::StageSpace> {
 ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bearings, planet_angles, planet_errors,
                 sun_tooth_errors, ring_tooth_errors, sun_working_angle, ring_working_angle, sun_teeth, planet_teeth,
                 ring_teeth, sun_mesh, ring_mesh, sun_phase_lag, ring_phase_lag, ring_tooth_offset, ring_coupling,
-                planet_coupling, sun_half_backlash, ring_half_backlash, mesh_damping_ratio, support_damping_ratio,
-                damping_without_contact, carrier_speed, ring_speed, bearing_speed, sun_torque, held, rotating_frame,
-                space, rotors);
+                planet_coupling, sun_half_backlash, ring_half_backlash, mesh_damping_ratio, sun_mesh_damping_ratio,
+                ring_mesh_damping_ratio, support_damping_ratio, structural_damping, damping_without_contact,
+                carrier_speed, ring_speed, bearing_speed, sun_torque, held, rotating_frame, space, rotors);
 
 ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
 ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_factor, mean_force, contact_loss,

@@ -100,6 +100,13 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   stage.ring_half_backlash = scene.ring_planet.half_backlash.value_or(scene.dynamics->half_backlash);
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
+  stage.sun_mesh_damping_ratio = scene.sun_planet.damping_ratio;
+  stage.ring_mesh_damping_ratio = scene.ring_planet.damping_ratio;
+  stage.sun.damping_ratio = scene.supports.sun_damping;
+  stage.ring.damping_ratio = scene.supports.ring_damping;
+  stage.carrier.damping_ratio = scene.supports.carrier_damping;
+  stage.planet.damping_ratio = scene.supports.planet_damping;
+  stage.structural_damping = structural_damping(*scene.dynamics);
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
   stage.rotors = rotors_of(scene);
   if (moves_in_space(scene)) put_in_space(stage, scene, geometry, ring, sun_mesh, ring_mesh);

@@ -179,6 +179,9 @@ dynamics::TwoKVStage make_two_k_v(const Scene& scene, const TwoKVTables& tables,
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
+  stage.sun_mesh_damping_ratio = scene.sun_planet.damping_ratio;
+  stage.arc_mesh_damping_ratio = scene.arc_pins.damping_ratio;
+  stage.structural_damping = structural_damping(*scene.dynamics);
   stage.rotors = rotors_of(scene);
   return stage;
 }

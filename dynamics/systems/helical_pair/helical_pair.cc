@@ -37,9 +37,9 @@ struct PairCoordinates {
   LinearForm y, z, u;
 };
 
-PairCoordinates add_gear(LumpedSystemBuilder& builder, const PairGear& gear, double damping_ratio,
-                         const std::string& name) {
+PairCoordinates add_gear(LumpedSystemBuilder& builder, const PairGear& gear, double of_pair, const std::string& name) {
   PairCoordinates c;
+  const double damping_ratio = gear.damping_ratio.value_or(of_pair);
   const auto add_translation = [&](double bearing, const char* dof, const char* direction) {
     if (bearing == rigid) return LinearForm{};
     LinearForm own = builder.add_dof(name + dof);
@@ -64,15 +64,17 @@ struct PairInSpace {
 /// Pinion, wheel.
 std::vector<BodyForms> add_bodies(LumpedSystemBuilder& builder, const HelicalPair& pair) {
   const auto& space = *pair.space;
-  const auto body = [](StageBody::Kind kind, const PairGear& gear, double tilting, double place, double spin) {
-    return SpaceBody{{kind}, gear.mass, gear.inertia, gear.radius, tilting, place, spin, 0};
+  const auto body = [&](StageBody::Kind kind, const PairGear& gear, double tilting, double place, double spin) {
+    return SpaceBody{{kind},      gear.mass, gear.inertia,
+                     gear.radius, tilting,   place,
+                     spin,        0,         gear.damping_ratio.value_or(pair.bearing_damping_ratio)};
   };
   return add_space_bodies(
       builder, space,
       {body(StageBody::Kind::pinion, pair.pinion, space.tilt_inertia_pinion, space.mass_place_pinion,
             pair.pinion_speed),
        body(StageBody::Kind::wheel, pair.wheel, space.tilt_inertia_wheel, space.mass_place_wheel, -pair.wheel_speed())},
-      {0, 0, pair.bearing_damping_ratio}, [](const auto&, const auto&, const auto&) { return seat_in_housing(); });
+      {0, 0}, [](const auto&, const auto&, const auto&) { return seat_in_housing(); });
 }
 
 PairInSpace add_in_space(LumpedSystemBuilder& builder, const HelicalPair& pair) {
@@ -163,6 +165,9 @@ void HelicalPair::check() const {
   if (half_backlash) check_not_negative(*half_backlash, "half backlash");
   check_not_negative(mesh_damping_ratio, "mesh damping ratio");
   check_not_negative(bearing_damping_ratio, "bearing damping ratio");
+  check_not_negative(pinion.damping_ratio.value_or(0), "damping ratio of the pinion's bearings");
+  check_not_negative(wheel.damping_ratio.value_or(0), "damping ratio of the wheel's bearings");
+  structural_damping.check();
   check_not_negative(pinion_speed, "pinion speed");
   check_rotors(rotors, shaft_ends());
   check_torque(*this);
@@ -234,7 +239,7 @@ LumpedSystem assemble(const HelicalPair& pair) {
   const auto ends = pair.shaft_ends();
   builder.add_load(pinion.u, ends.front().load, LoadCause::torque);
   builder.add_load(wheel.u, ends.back().load, LoadCause::torque);
-  return with_rotors(builder.build(), pair.rotors, ends);
+  return with_structural_damping(with_rotors(builder.build(), pair.rotors, ends), pair.structural_damping);
 }
 
 std::vector<std::vector<LinearForm>> bearing_coordinates(const HelicalPair& pair) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dynamics/modes/modes.h"
+#include "dynamics/modes/structural_damping.h"
 #include "dynamics/spatial/space_bodies.h"
 #include "dynamics/system/drive_line.h"
 #include "dynamics/system/lumped_system.h"
@@ -38,7 +39,8 @@ struct PairGear {
   double radius = 0;   ///< m, base radius
   /// N/m to the housing; `rigid` drops the DOF.
   double bearing_transverse = rigid, bearing_axial = rigid;
-  ErrorWave error;  ///< once per turn of this gear
+  ErrorWave error;                        ///< once per turn of this gear
+  std::optional<double> damping_ratio{};  ///< of its bearings; absent: that of the pair
 };
 
 /// A helical gear pair with bending, torsion and axial motion; SI. After [LiuZhangZhangWangWang2020, eqs. (1) and (10)
@@ -67,7 +69,8 @@ struct HelicalPair {
   /// xi in c = 2 xi sqrt(k_mean I_1 I_2/(I_1 r_2^2 + I_2 r_1^2)). [LiuZhangZhangWangWang2020, eq. (11)] is not a
   /// damping constant.
   double mesh_damping_ratio = 0;
-  double bearing_damping_ratio = 0;      ///< zeta in c = 2 zeta sqrt(k m)
+  double bearing_damping_ratio = 0;  ///< zeta in c = 2 zeta sqrt(k m)
+  StructuralDamping structural_damping{};
   bool damping_without_contact = false;  ///< true: as printed, meshes without contact push and pull
 
   double pinion_speed = 0;  ///< rad/s, >= 0

@@ -21,7 +21,7 @@ BodyForms add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
   if (body.support != rigid) {
     c.x = builder.add_dof(name + "_x");
     c.y = builder.add_dof(name + "_y");
-    const double damping = critical_share(stage.support_damping_ratio, body.support, body.mass);
+    const double damping = critical_share(stage.damping_ratio_of(body), body.support, body.mass);
     builder.add_rotating_mass(c.x, c.y, body.mass, speed);
     builder.add_spring(c.x, body.support, damping, name + "_support_x");
     builder.add_spring(c.y, body.support, damping, name + "_support_y");
@@ -32,7 +32,7 @@ BodyForms add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
     const double mass = body.inertia / (body.radius * body.radius);
     builder.add_mass(c.u, mass);
     builder.add_spring(c.u, body.torsional_support,
-                       critical_share(stage.support_damping_ratio, body.torsional_support, mass), name + "_support_u");
+                       critical_share(stage.damping_ratio_of(body), body.torsional_support, mass), name + "_support_u");
   }
   return c;
 }
@@ -45,7 +45,7 @@ MeshElement bearing_component(const PlanetaryStage& stage, const std::string& na
   element.name = name;
   element.b = direction[0] * radial + direction[1] * tangential;
   element.excitation = ConstantStiffness{stiffness};
-  element.damping = critical_share(stage.support_damping_ratio, stiffness, stage.planet.mass);
+  element.damping = critical_share(stage.damping_ratio_of(stage.planet), stiffness, stage.planet.mass);
   return element;
 }
 
@@ -93,7 +93,7 @@ BodyForms add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, 
     LinearForm own = builder.add_dof(name + dof);
     if (bearing.play == 0)
       builder.add_spring(own + (-1.0) * seat, stiffness,  // [HuFangXuShen2021, eqs. (20), (21)]
-                         critical_share(stage.support_damping_ratio, stiffness, body.mass), name + direction);
+                         critical_share(stage.damping_ratio_of(body), stiffness, body.mass), name + direction);
     return own;
   };
   p.x = add_translation(bearing.radial, radial, "_x", "_bearing_radial");
@@ -142,7 +142,8 @@ std::vector<LinearForm> add_ring_modes(LumpedSystemBuilder& builder, const Plane
     auto amplitude = builder.add_dof(name);
     const double rate = 2 * std::numbers::pi * mode.frequency;
     builder.add_mass(amplitude, 1);
-    builder.add_spring(amplitude, rate * rate, critical_share(stage.support_damping_ratio, rate * rate, 1), name);
+    builder.add_spring(amplitude, rate * rate, critical_share(stage.damping_ratio_of(stage.ring), rate * rate, 1),
+                       name);
     builder.add_mass_coupling(amplitude, ring.x, in_mass_of_stage(mode.translation_x, stage.ring.mass, body.mass));
     builder.add_mass_coupling(amplitude, ring.y, in_mass_of_stage(mode.translation_y, stage.ring.mass, body.mass));
     builder.add_mass_coupling(amplitude, ring.u,
@@ -295,8 +296,9 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
     element.excitation = excitation;
     element.frequency = stage.mesh_rate();
     element.phase_offset = phase;
-    element.damping =
-        critical_share(stage.mesh_damping_ratio, mean_stiffness(excitation), equivalent_mass(stage, wheel));
+    const auto& own = &wheel == &stage.sun ? stage.sun_mesh_damping_ratio : stage.ring_mesh_damping_ratio;
+    element.damping = critical_share(own.value_or(stage.mesh_damping_ratio), mean_stiffness(excitation),
+                                     equivalent_mass(stage, wheel));
     element.half_backlash = half_backlash;
     element.damping_without_contact = stage.damping_without_contact;
     element.errors = std::move(errors);
@@ -337,7 +339,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
     const auto end = std::find_if(ends.begin(), ends.end(), [&](const auto& e) { return e.name == name; });
     if (end->load != 0) builder.add_load(*form, end->load, LoadCause::torque);
   }
-  return with_rotors(builder.build(), stage.rotors, ends);
+  return with_structural_damping(with_rotors(builder.build(), stage.rotors, ends), stage.structural_damping);
 }
 
 }  // namespace annulus::dynamics

@@ -15,7 +15,8 @@ SpaceBody data_of(const PlanetaryStage& stage, const StageBody& body) {
   const auto& off = stage.space->mass_place;
   const auto spin = [&](double speed) { return stage.rotating_frame ? speed : 0; };
   const auto central = [&](const CentralBody& b, double across, double place, double speed) {
-    return SpaceBody{body, b.mass, b.inertia, b.radius, across, place, spin(speed), b.torsional_support};
+    return SpaceBody{
+        body, b.mass, b.inertia, b.radius, across, place, spin(speed), b.torsional_support, stage.damping_ratio_of(b)};
   };
   switch (body.kind) {
     case Kind::sun:
@@ -30,7 +31,15 @@ SpaceBody data_of(const PlanetaryStage& stage, const StageBody& body) {
       return central(stage.carrier, tilt.carrier, off.carrier, stage.carrier_speed);
     default: {
       const auto& planet = stage.planet;
-      return {body, planet.mass, planet.inertia, planet.radius, tilt.planet, 0, spin(stage.planet_speed()), 0};
+      return {body,
+              planet.mass,
+              planet.inertia,
+              planet.radius,
+              tilt.planet,
+              0,
+              spin(stage.planet_speed()),
+              0,
+              stage.damping_ratio_of(planet)};
     }
   }
 }
@@ -75,8 +84,7 @@ StageForms add_bodies_in_space(LumpedSystemBuilder& builder, const PlanetaryStag
   std::vector<SpaceBody> bodies;
   for (const auto kind : {Kind::sun, Kind::ring, Kind::carrier}) bodies.push_back(data_of(stage, {kind}));
   for (int n = 0; n < stage.planets(); ++n) bodies.push_back(data_of(stage, {Kind::planet, n}));
-  const SpaceFrame frame{stage.rotating_frame ? stage.carrier_speed : 0, stage.carrier_speed,
-                         stage.support_damping_ratio};
+  const SpaceFrame frame{stage.rotating_frame ? stage.carrier_speed : 0, stage.carrier_speed};
   auto forms = add_space_bodies(builder, *stage.space, bodies, frame,
                                 [&](const std::vector<BodyForms>& known, const StageBody& body, const StageBody& on) {
                                   if (on.kind == Kind::housing) return seat_in_housing();

@@ -271,6 +271,14 @@ void PlanetaryStage::check() const {
   if (ring_half_backlash) check_not_negative(*ring_half_backlash, "half backlash of the ring meshes");
   check_not_negative(mesh_damping_ratio, "mesh damping ratio");
   check_not_negative(support_damping_ratio, "support damping ratio");
+  for (const auto& [ratio, name] : {std::pair{&sun_mesh_damping_ratio, "damping ratio of the sun meshes"},
+                                    {&ring_mesh_damping_ratio, "damping ratio of the ring meshes"},
+                                    {&sun.damping_ratio, "damping ratio of the sun's support"},
+                                    {&ring.damping_ratio, "damping ratio of the ring's support"},
+                                    {&carrier.damping_ratio, "damping ratio of the carrier's support"},
+                                    {&planet.damping_ratio, "damping ratio of the planet bearings"}})
+    check_not_negative(ratio->value_or(0), name);
+  structural_damping.check();
   for (const auto& [speed, name] : {std::pair{carrier_speed, "carrier"}, {ring_speed, "ring"}})
     if (!std::isfinite(speed)) throw InputError(fmt::format("{} speed {} rad/s must be finite", name, speed));
   if (held && sun_teeth > 0 && ring_teeth > 0) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/ring_coupling.h"
+#include "dynamics/modes/structural_damping.h"
 #include "dynamics/system/drive_line.h"
 #include "dynamics/system/mesh_excitation.h"
 #include "dynamics/system/periods.h"
@@ -48,13 +49,15 @@ struct CentralBody {
   /// N/m in the coordinate u; `rigid` drops u. 0: free to turn (it carries the power).
   double torsional_support = 0;
   BodyErrors errors;
+  std::optional<double> damping_ratio{};  ///< of its supports; absent: support_damping_ratio
 };
 
 /// All planets share these.
 struct PlanetBody {
-  double mass = 0;     ///< kg
-  double inertia = 0;  ///< kg m^2
-  double radius = 0;   ///< m, base radius
+  double mass = 0;                        ///< kg
+  double inertia = 0;                     ///< kg m^2
+  double radius = 0;                      ///< m, base radius
+  std::optional<double> damping_ratio{};  ///< of their bearings; absent: support_damping_ratio
 };
 
 /// Stiffness between a planet and the carrier, N/m, bearing and pin. `rigid` drops the planet's DOF: in that direction
@@ -112,7 +115,13 @@ struct PlanetaryStage {
   void set_half_backlash(std::optional<double> both) { sun_half_backlash = ring_half_backlash = both; }
   /// zeta in c = 2 zeta sqrt(k_mean m_e), 1/m_e = r_1^2/I_1 + r_2^2/I_2 [HuFangXuShen2021, eqs. (31), (34)].
   double mesh_damping_ratio = 0;
+  std::optional<double> sun_mesh_damping_ratio{}, ring_mesh_damping_ratio{};  ///< absent: mesh_damping_ratio
   double support_damping_ratio = 0;  ///< zeta in c = 2 zeta sqrt(k m), supports and planet bearings
+  StructuralDamping structural_damping{};
+  template <class Body>
+  [[nodiscard]] double damping_ratio_of(const Body& body) const {
+    return body.damping_ratio.value_or(support_damping_ratio);
+  }
   /// false: damping acts only in contact. true: always, as printed in [HuFangXuShen2021, eq. (30)]; meshes without
   /// contact then pull.
   bool damping_without_contact = false;

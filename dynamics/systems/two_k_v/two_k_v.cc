@@ -69,6 +69,9 @@ void TwoKVStage::check() const {
   support(output_support, "output support");
   not_negative(mesh_damping_ratio, "mesh damping ratio", "");
   not_negative(support_damping_ratio, "support damping ratio", "");
+  not_negative(sun_mesh_damping_ratio.value_or(0), "damping ratio of the sun meshes", "");
+  not_negative(arc_mesh_damping_ratio.value_or(0), "damping ratio of the arc meshes", "");
+  structural_damping.check();
   not_negative(sun_half_backlash.value_or(0), "half backlash of the sun mesh", "m");
   not_negative(arc_half_backlash.value_or(0), "half backlash of the arc mesh", "m");
   if (!std::isfinite(crank_angle)) refuse(fmt::format("crank angle {} rad must be finite", crank_angle));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/modes/structural_damping.h"
 #include "dynamics/system/drive_line.h"
 #include "dynamics/system/lumped_system.h"
 #include "dynamics/system/mesh_excitation.h"
@@ -60,7 +61,9 @@ struct TwoKVStage {
   bool damping_without_contact = false;
   /// zeta in c = 2 zeta sqrt(k m_e), 1/m_e = b^T M^-1 b of the element (the mean over its directions in a bearing).
   double mesh_damping_ratio = 0;
-  double support_damping_ratio = 0;  ///< shafts, bearings and supports
+  std::optional<double> sun_mesh_damping_ratio{}, arc_mesh_damping_ratio{};  ///< absent: mesh_damping_ratio
+  double support_damping_ratio = 0;                                          ///< shafts, bearings and supports
+  StructuralDamping structural_damping{};
 
   double crank_angle = 0;    ///< Theta at time 0, rad
   double output_speed = 0;   ///< rad/s, >= 0

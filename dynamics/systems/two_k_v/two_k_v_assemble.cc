@@ -98,7 +98,9 @@ class TwoKVAssembler {
     element.name = name;
     element.b = std::move(b);
     element.excitation = excitation;
-    element.damping = 2 * stage_.mesh_damping_ratio * std::sqrt(mean_stiffness(excitation) / inverse_mass);
+    const auto& own = &excitation == &stage_.sun_mesh ? stage_.sun_mesh_damping_ratio : stage_.arc_mesh_damping_ratio;
+    element.damping =
+        2 * own.value_or(stage_.mesh_damping_ratio) * std::sqrt(mean_stiffness(excitation) / inverse_mass);
     element.damping_without_contact = stage_.damping_without_contact;
     return element;
   }
@@ -168,7 +170,8 @@ class TwoKVAssembler {
 
 LumpedSystem assemble(const TwoKVStage& stage) {
   stage.check();
-  return with_rotors(TwoKVAssembler(stage).build(), stage.rotors, stage.shaft_ends());
+  return with_structural_damping(with_rotors(TwoKVAssembler(stage).build(), stage.rotors, stage.shaft_ends()),
+                                 stage.structural_damping);
 }
 
 }  // namespace annulus::dynamics
