@@ -34,6 +34,8 @@ double usual_number(Draw& draw, const Parameter& p, const Scales& scales) {
   if (p.name == "planet_pin_length_mm") return scales.module_mm * draw.uniform(8, 25);
   if (ends_with(p, "length_mm")) return scales.module_mm * draw.uniform(0.1, 0.6);
   if (ends_with(p, "damping_ratio")) return draw.log_uniform(0.01, 0.15);
+  if (p.name == "rayleigh_mass_per_s") return draw.log_uniform(1, 50);
+  if (p.name == "rayleigh_stiffness_s") return draw.log_uniform(1e-8, 1e-6);
   if (p.name == "ripple") return draw.log_uniform(0.01, 0.3);
   if (p.name == "phase") return draw.uniform(-0.5, 0.5);
   if (p.name == "relative_tolerance") return draw.log_uniform(1e-9, 1e-6);
@@ -233,7 +235,6 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"statics.*", "of annulus statics alone"},
       {"dynamics.mesh_cycles", "a length of motion, without a steady state"},
       {"rotor.*", "put on a body that turns"},
-      {"transient.*", "courses of speed and torque, which have suites of their own"},
   };
   return keys;
 }
