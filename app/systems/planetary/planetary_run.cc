@@ -111,7 +111,8 @@ std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeomet
   const auto stage = make(sun_mesh, ring_mesh);
   auto simulation = simulation_options(scene, stage);
   simulation.other_motions.threads = options.threads;
-  const auto id = response_id(stage, simulation, sun_mesh, ring_mesh);
+  auto id = response_id(stage, simulation, sun_mesh, ring_mesh);
+  if (!ring_mesh.gauges.rows.empty()) id = identity_of(id, ring_mesh.gauges.text());
   auto [response, reused] = cached_value(options.store.get(), cached_responses, id, [&] {
     auto found = simulate_stage(stage, simulation, {make, sun_mesh, ring_mesh});
     if (stage.space)

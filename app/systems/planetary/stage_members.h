@@ -61,7 +61,7 @@ ANNULUS_MEMBERS(app::StageMotion, pin_force_max, pin_force_mean, load_zone, sun_
                 held_torque, orbit_extent, orbit_largest, section, section_period, section_clusters, bearing_forces,
                 space, sun_orbit, poincare);
 ANNULUS_MEMBERS(app::StageResponse, figures, errors, modes, motion, load_sharing, force_factors, waveform,
-                sharing_waveform, spectrum, time_series, reused);
+                sharing_waveform, spectrum, gauge_spectrum, time_series, reused);
 ANNULUS_MEMBERS(app::CouplingEffect::Row, model, averaged, instantaneous, quasi_static, sun_factor, ring_factor);
 ANNULUS_MEMBERS(app::CouplingEffect, rows, cycles);
 

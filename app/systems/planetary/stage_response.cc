@@ -8,6 +8,7 @@
 #include "app/model/time_series.h"
 #include "app/results/content_id.h"
 #include "app/systems/planetary/alternative_stages.h"
+#include "app/systems/planetary/gauge_spectrum.h"
 #include "app/systems/shared/face_loads.h"
 #include "core/errors.h"
 #include "core/file_guard.h"
@@ -96,6 +97,7 @@ void for_each_stage_table(Response& r, Visit visit) {
   visit("waveform.csv", r.waveform);
   visit("load_sharing_waveform.csv", r.sharing_waveform);
   visit("spectrum.csv", r.spectrum);
+  visit("strain_gauge_spectrum.csv", r.gauge_spectrum);
   visit("bearing_forces.csv", r.motion.bearing_forces);
   visit("bearings_in_space.csv", r.motion.space.table);
   visit("sun_orbit.csv", r.motion.sun_orbit);
@@ -144,6 +146,7 @@ StageResponse simulate_stage(const dynamics::PlanetaryStage& stage, const dynami
   check_power(stage, response, options.steady_tolerance);
   tabulate(result, response, stage.planets());
   result.motion = tabulated_motion(stage, response);
+  result.gauge_spectrum = gauge_spectrum(stage, tables.ring_mesh, response);
   for_each_stage_table(result, [](const char*, Csv& table) { table.round(); });
   result.time_series = time_series_table(response.series, response.window_cycles).text();
   response.series = {};

@@ -2,12 +2,50 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "core/units.h"
 
 namespace annulus::app {
+
+namespace {
+
+/// The highest lines of every gauge, with their distance from the nearest multiple of the mesh frequency.
+Blocks spectrum_blocks(const Csv& csv, const std::string& ring) {
+  constexpr std::size_t first = 3;  // column of the first gauge
+  auto plot = wide_plot("Ring " + ring + " in motion", "order of the mesh frequency", "amplitude of the strain, µm/m");
+  PageTable table{
+      .head = {"gauge", "order of the mesh frequency", "sideband, carrier orders", "frequency, Hz", "amplitude, µm/m"},
+      .style = PageTable::Style::numbers};
+  for (std::size_t column = first; column < csv.columns.size(); ++column) {
+    Series lines{
+        .label = fmt::format("gauge {}", column - first + 1), .colour = column - first, .style = Series::Style::dots};
+    auto rows = csv.rows;
+    for (const auto& row : rows) {
+      lines.x.push_back(row[0]);
+      lines.y.push_back(row[column]);
+    }
+    plot.series.push_back(std::move(lines));
+    constexpr std::size_t shown = 6;
+    std::sort(rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return a[column] > b[column]; });
+    for (std::size_t i = 0; i < std::min(shown, rows.size()); ++i) {
+      const double order = rows[i][0], harmonic = std::round(order), teeth = rows[i][1] / order;
+      table.rows.push_back({fmt::format("{}", column - first + 1), to_text(order, 5),
+                            fmt::format("{:+.4g}", (order - harmonic) * teeth), to_text(rows[i][2], 5),
+                            to_text(rows[i][column], 4)});
+    }
+  }
+  return Pictures{{std::move(plot)}} + table +
+         paragraph(
+             phrase("Every planet strains the ring in proportion to its force at that moment. Passing planets make "
+                    "sidebands of carrier orders about the multiples of the mesh frequency. Table: {}.",
+                    code("dynamics/strain_gauge_spectrum.csv")));
+}
+
+}  // namespace
 
 Section strain_gauges_section(const RunResult& result) {
   constexpr double micro = 1e-6;
@@ -43,6 +81,8 @@ Section strain_gauges_section(const RunResult& result) {
     if (!factors.rows.empty()) section.blocks += factors;
   }
   if (section.blocks.empty()) return section;
+  for (const auto& [name, response] : responses_of(result))
+    if (!response->gauge_spectrum.rows.empty()) section.blocks += spectrum_blocks(response->gauge_spectrum, name);
   section.blocks += paragraph(
       "Every planet carries the mean mesh force, and its mesh strains the ring as if it were alone: the strains of all "
       "planets are added. The strain is averaged over the length of the gauge. Positive: tension. The error is that of "

@@ -1,0 +1,91 @@
+#include "app/systems/planetary/gauge_spectrum.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "core/units.h"
+#include "dynamics/figures/spectrum.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr double highest_order = 3.5, lowest_line = 1e-4;
+constexpr long most_cycles = 20000;
+
+/// Mesh cycles after which the motion and a revolution of the carrier against the ring repeat together; 0: too many.
+long common_cycles(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response) {
+  if (!response.steady || !response.whole_period) return 0;
+  const long cycles = std::lcm(static_cast<long>(response.window_cycles), static_cast<long>(stage.ring_teeth));
+  return cycles <= most_cycles ? cycles : 0;
+}
+
+/// Strain over the angle of a planet in the frame of the ring, as a curve over turns.
+struct GaugeCurve {
+  PeriodicCurve strain;
+  double first = 0;  ///< rad, angle of the first value
+};
+
+std::vector<GaugeCurve> curves_of(const Csv& csv) {
+  std::vector<GaugeCurve> curves;
+  const double first = csv.rows.front()[csv.column("ring_angle_deg")] * units::deg;
+  for (std::size_t column = 0; column < csv.columns.size(); ++column) {
+    if (!csv.columns[column].starts_with("gauge_")) continue;
+    std::vector<double> values;
+    for (const auto& row : csv.rows) values.push_back(row[column]);
+    curves.push_back({PeriodicCurve(values, static_cast<int>(values.size())), first});
+  }
+  return curves;
+}
+
+}  // namespace
+
+Csv gauge_spectrum(const dynamics::PlanetaryStage& stage, const MeshResult& ring_mesh,
+                   const dynamics::DynamicResponse& response) {
+  const long cycles = ring_mesh.gauges.rows.empty() ? 0 : common_cycles(stage, response);
+  if (cycles == 0) return {};
+  const auto& series = response.series;
+  const Eigen::Index window = series.time.size(), samples = window / response.window_cycles;
+  const int planets = stage.planets();
+  const auto at = [](const std::vector<double>& list, int n) {
+    return list.empty() ? 0.0 : list[static_cast<std::size_t>(n)];
+  };
+  Csv csv;
+  csv.columns = {"mesh_order", "carrier_order", "frequency_Hz"};
+  std::vector<dynamics::Spectrum> spectra;
+  for (const auto& curve : curves_of(ring_mesh.gauges)) {
+    csv.columns.push_back(fmt::format("gauge_{}_um_per_m", spectra.size() + 1));
+    Eigen::VectorXd strain = Eigen::VectorXd::Zero(cycles * samples);
+    for (Eigen::Index i = 0; i < strain.size(); ++i) {
+      const double time =
+          series.time[0] + static_cast<double>(i) / (static_cast<double>(samples) * response.mesh_frequency);
+      for (int n = 0; n < planets; ++n) {
+        const double passed = stage.mesh_rate() * time + at(stage.ring_tooth_offset, n) - at(stage.ring_phase_lag, n);
+        const double turns = passed / stage.ring_teeth - curve.first / (2 * std::numbers::pi);
+        const double share = series.force(planets + n, i % window) / stage.mean_mesh_force();
+        strain[i] += share * curve.strain(turns);
+      }
+    }
+    spectra.push_back(dynamics::spectrum(strain, static_cast<int>(cycles)));
+  }
+  double highest = 0;
+  for (const auto& s : spectra) highest = std::max(highest, s.amplitude.tail(s.amplitude.size() - 1).maxCoeff());
+  const auto& order = spectra.front().order;
+  for (Eigen::Index i = 1; i < order.size() && order[i] <= highest_order; ++i) {
+    if (std::none_of(spectra.begin(), spectra.end(),
+                     [&](const auto& s) { return s.amplitude[i] >= lowest_line * highest; }))
+      continue;
+    auto& row =
+        csv.rows.emplace_back(std::vector{order[i], order[i] * stage.ring_teeth, order[i] * response.mesh_frequency});
+    for (const auto& s : spectra) row.push_back(s.amplitude[i]);
+  }
+  return csv;
+}
+
+}  // namespace annulus::app
