@@ -90,7 +90,7 @@ void check_transients(const Scene& scene) {
                                  place_text(scene, "transient.time_s", 0), scene.stage.kind));
   const auto rough = system->rough_lumped();
   for (std::size_t i = 0; rough && i < scene.transients.size(); ++i) {
-    constexpr double most = 50000;
+    constexpr double most = dynamics::TransientOptions::most_cycles;
     const double cycles = scene.transients[i].nominal_time() * rough->problem.mesh_frequency;
     if (cycles > most)
       throw InputError(

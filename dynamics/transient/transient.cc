@@ -44,11 +44,15 @@ class CourseRun {
 
   TransientResponse run(double force_scale) && {
     TransientResponse result;
+    const double in_course = pacing_.nominal_end() * frequency_;
+    if (in_course > TransientOptions::most_cycles)
+      throw InputError(fmt::format("the course has {:.3g} mesh cycles; {:g} are possible", in_course,
+                                   TransientOptions::most_cycles));
     for (const int m : meshes_) result.meshes.push_back(system_.meshes()[static_cast<std::size_t>(m)].name);
     result.gears = gears_;
     settle(result, force_scale);
     result.nominal = nominal();
-    const int cycles = std::max(1, static_cast<int>(std::ceil(pacing_.nominal_end() * frequency_ - 1e-9)));
+    const int cycles = std::max(1, static_cast<int>(std::ceil(in_course - 1e-9)));
     const auto followed = advance(cycles);
     result.statistics = statistics_;
     tabulate(result, followed, cycles);

@@ -17,7 +17,8 @@ struct TransientOptions {
   int samples_per_cycle = 32;
   double steady_tolerance = 1e-3;  ///< of the motion from which the course starts
   int most_settling_cycles = 400;
-  double highest_order = 6;  ///< of the mesh frequency, in the spectra
+  double highest_order = 6;                     ///< of the mesh frequency, in the spectra
+  static constexpr double most_cycles = 50000;  ///< of a course: what its samples take of the memory
 };
 
 /// What meshes do in every cycle of the fastest mesh.
@@ -47,7 +48,7 @@ struct TransientResponse {
   [[nodiscard]] double largest_of(int mesh) const;
 };
 
-/// Throws what Pacing and integrate() throw.
+/// Throws InputError for a course of too many mesh cycles, and what Pacing and integrate() throw.
 [[nodiscard]] TransientResponse follow_course(const LumpedCase& of, const TransientOptions& options);
 
 }  // namespace annulus::dynamics

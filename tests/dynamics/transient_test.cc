@@ -293,6 +293,7 @@ BOOST_AUTO_TEST_CASE(refused_courses) {
   BOOST_CHECK_THROW(follow({{0, 1, 1}}), annulus::InputError);
   BOOST_CHECK_THROW(follow({{0.1, 1, 1}, {1, 1, 1}}), annulus::InputError);
   BOOST_CHECK_THROW(follow({{0, 1, 1}, {1, 0, 1}}), annulus::InputError);
+  BOOST_CHECK_THROW(follow({{0, 1, 1}, {1e6, 1.5, 1}}), annulus::InputError);
   auto options = options_of({{0, 1, 1}, {1, 1, 1}});
   options.integrator.method = Integrator::cvode_bdf;
   BOOST_CHECK_THROW((void)follow_course(of, options), annulus::InputError);
