@@ -82,10 +82,17 @@ class CourseRun {
     state_.time = 0;  // but for rounding
   }
 
-  /// N, of the meshes in equilibrium under the nominal torque at time 0.
+  /// N, of the meshes in equilibrium under the nominal torque: the mean over a period.
   [[nodiscard]] Eigen::VectorXd nominal() const {
-    const auto path = static_path(system_, Eigen::VectorXd::Zero(1));
-    return path.force(meshes_, 0);
+    constexpr int places = 128, longest = 20000;
+    const double golden = (std::sqrt(5) - 1) / 2;  // so that all phases of the mesh cycle come
+    std::vector<double> cycles;
+    for (int k = 0; k < places; ++k)
+      cycles.push_back(std::floor(static_cast<double>(k) * std::min(of_period_, longest) / places) + k * golden -
+                       std::floor(k * golden));
+    std::sort(cycles.begin(), cycles.end());
+    const Eigen::VectorXd times = Eigen::Map<const Eigen::VectorXd>(cycles.data(), places) / frequency_;
+    return static_path(system_, times).force(meshes_, Eigen::all).rowwise().mean();
   }
 
   Followed advance(int cycles) {

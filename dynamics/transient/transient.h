@@ -25,7 +25,7 @@ struct TransientOptions {
 struct TransientResponse {
   std::vector<std::string> meshes;          ///< those of gears, then shafts; per row
   int gears = 0;                            ///< how many are meshes of gears
-  Eigen::VectorXd nominal;                  ///< N, in equilibrium under the nominal torque, per mesh
+  Eigen::VectorXd nominal;                  ///< N, mean of a period in equilibrium under the nominal torque
   Eigen::VectorXd time, speed, torque;      ///< in the middle of each cycle: s; factors
   Eigen::MatrixXd largest, smallest, mean;  ///< N, meshes x cycles
   Eigen::VectorXd open;                     ///< share of the time without contact, per mesh of gears
