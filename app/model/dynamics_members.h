@@ -2,6 +2,7 @@
 
 #include "core/bytes.h"
 #include "dynamics/figures/shaft_results.h"
+#include "dynamics/modes/structural_damping.h"
 #include "dynamics/steady_state/branches.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "dynamics/system/mesh_excitation.h"
