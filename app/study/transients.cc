@@ -17,7 +17,8 @@
 namespace annulus {
 
 ANNULUS_MEMBERS(dynamics::TransientResponse, meshes, gears, nominal, time, speed, torque, largest, smallest, mean, open,
-                settling_cycles, settled, spectrum_of, order, window_time, window_speed, amplitude, statistics);
+                between_samples, settling_cycles, settled, spectrum_of, order, window_time, window_speed, amplitude,
+                statistics);
 ANNULUS_MEMBERS(app::VariantCourse, response, largest_force, largest_over_nominal, contact_loss, shaft_torque, failure);
 
 namespace app {
@@ -40,22 +41,32 @@ constexpr const char *force_key = "largest_force", *factor_key = "largest_over_n
 std::string loss_key(int mesh) { return fmt::format("contact_loss_{}", mesh); }
 std::string shaft_key(int mesh) { return fmt::format("shaft_torque_{}", mesh); }
 
+double ratio(double value, double nominal) { return nominal == 0 ? not_known : value / std::abs(nominal); }
+
 FigureSet figures_of(const dynamics::TransientResponse& r) {
   FigureSet figures;
   const auto peak = r.peak();
   figures.set(force_key, {std::abs(peak.force), 0});
-  figures.set(factor_key, {std::abs(peak.force) / r.nominal[peak.mesh], 0});
+  figures.set(factor_key, {ratio(std::abs(peak.force), r.nominal[peak.mesh]), 0});
   for (int m = 0; m < r.gears; ++m) figures.set(loss_key(m), {r.open[m], 0});
   for (int m = r.gears; m < static_cast<int>(r.meshes.size()); ++m)
-    figures.set(shaft_key(m), {r.largest_of(m) / std::abs(r.nominal[m]), 0});
+    figures.set(shaft_key(m), {ratio(r.largest_of(m), r.nominal[m]), 0});
   return figures;
 }
 
-/// With the change that a tolerance ten times looser makes as the error of the integration.
-FigureSet with_integration_errors(FigureSet figures, const FigureSet& looser) {
-  const auto known = figures;
-  for (const auto& entry : known.entries())
-    figures.set(entry.key, {entry.figure.value, std::abs(entry.figure.value - looser.value(entry.key))});
+/// With the change by a tolerance ten times looser, and of largest values that by half the samples, as errors.
+FigureSet with_integration_errors(const dynamics::TransientResponse& r, const dynamics::TransientResponse& other) {
+  auto figures = figures_of(r);
+  const auto known = figures, looser = figures_of(other);
+  const auto add = [&](const std::string& key, double beside) {
+    const double value = known.value(key);
+    figures.set(key, {value, std::abs(value - looser.value(key)) + beside * value});
+  };
+  const double of_peak = r.between_samples[r.peak().mesh];
+  add(force_key, of_peak);
+  add(factor_key, of_peak);
+  for (int m = 0; m < r.gears; ++m) add(loss_key(m), 0);
+  for (int m = r.gears; m < static_cast<int>(r.meshes.size()); ++m) add(shaft_key(m), r.between_samples[m]);
   return figures;
 }
 
@@ -67,7 +78,7 @@ VariantCourse followed(const StudySubject& subject, const TransientInput& input,
   const auto model = subject.model({{}, fmt::format("[[transient]] '{}'", input.name), ""}, variant);
   course.response = at_tolerance(*model, tolerance);
   const auto& r = course.response;
-  const auto nominal = with_integration_errors(figures_of(r), figures_of(at_tolerance(*model, 10 * tolerance)));
+  const auto nominal = with_integration_errors(r, at_tolerance(*model, 10 * tolerance));
   const auto figures = subject.with_errors(
       variant, nominal, [&](const LumpedModel& changed) { return figures_of(at_tolerance(changed, tolerance)); });
   course.largest_force = figures.figure(force_key);

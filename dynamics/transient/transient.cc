@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -82,6 +84,26 @@ class CourseRun {
     state_.time = 0;  // but for rounding
   }
 
+  /// The mean of meshes with the same name but for a number at its end.
+  [[nodiscard]] Eigen::VectorXd mean_of_kinds(const Eigen::VectorXd& forces) const {
+    std::map<std::string, std::pair<double, int>> kinds;
+    std::vector<std::string> names;
+    for (const int m : meshes_) {
+      auto name = system_.meshes()[static_cast<std::size_t>(m)].name;
+      while (!name.empty() && std::isdigit(static_cast<unsigned char>(name.back())) != 0) name.pop_back();
+      auto& [sum, count] = kinds[name];
+      sum += forces[std::ssize(names)];
+      ++count;
+      names.push_back(std::move(name));
+    }
+    Eigen::VectorXd means(forces.size());
+    for (Eigen::Index i = 0; i < means.size(); ++i) {
+      const auto& [sum, count] = kinds[names[static_cast<std::size_t>(i)]];
+      means[i] = sum / count;
+    }
+    return means;
+  }
+
   /// N, of the meshes in equilibrium under the nominal torque: the mean over a period.
   [[nodiscard]] Eigen::VectorXd nominal() const {
     constexpr int places = 128, longest = 20000;
@@ -92,7 +114,7 @@ class CourseRun {
                        std::floor(k * golden));
     std::sort(cycles.begin(), cycles.end());
     const Eigen::VectorXd times = Eigen::Map<const Eigen::VectorXd>(cycles.data(), places) / frequency_;
-    return static_path(system_, times).force(meshes_, Eigen::all).rowwise().mean();
+    return mean_of_kinds(static_path(system_, times).force(meshes_, Eigen::all).rowwise().mean());
   }
 
   Followed advance(int cycles) {
@@ -125,6 +147,13 @@ class CourseRun {
     result.largest.resize(rows, cycles);
     result.smallest = result.mean = result.largest;
     result.open = followed.open / followed.duration;
+    result.between_samples.resize(rows);
+    for (Eigen::Index m = 0; m < rows; ++m) {
+      const auto all = followed.force.row(m).cwiseAbs();
+      float largest = 0;
+      for (Eigen::Index i = 0; i < all.size(); i += 2) largest = std::max(largest, all[i]);
+      result.between_samples[m] = all.maxCoeff() > 0 ? 1 - largest / all.maxCoeff() : 0;
+    }
     for (int c = 0; c < cycles; ++c) {
       const auto now = pacing_.at((c + 0.5) / frequency_);
       result.time[c] = now.time;

@@ -23,14 +23,17 @@ struct TransientOptions {
 
 /// What meshes do in every cycle of the fastest mesh.
 struct TransientResponse {
-  std::vector<std::string> meshes;          ///< those of gears, then shafts; per row
-  int gears = 0;                            ///< how many are meshes of gears
-  Eigen::VectorXd nominal;                  ///< N, mean of a period in equilibrium under the nominal torque
+  std::vector<std::string> meshes;  ///< those of gears, then shafts; per row
+  int gears = 0;                    ///< how many are meshes of gears
+  Eigen::VectorXd
+      nominal;  ///< N, per mesh: mean of a period, and of meshes that differ in their number, at the nominal torque
   Eigen::VectorXd time, speed, torque;      ///< in the middle of each cycle: s; factors
   Eigen::MatrixXd largest, smallest, mean;  ///< N, meshes x cycles
   Eigen::VectorXd open;                     ///< share of the time without contact, per mesh of gears
-  int settling_cycles = 0;                  ///< before the course
-  bool settled = false;                     ///< the course starts from a steady motion
+  /// By how much less the largest amount of a mesh is in every second sample alone, relative.
+  Eigen::VectorXd between_samples;
+  int settling_cycles = 0;  ///< before the course
+  bool settled = false;     ///< the course starts from a steady motion
   /// Spectra of the gear mesh with the largest force over windows of `window_cycles`, each half over the one before.
   int spectrum_of = 0;
   static constexpr int window_cycles = 16;
