@@ -65,7 +65,14 @@ FigureSet with_integration_errors(const dynamics::TransientResponse& r, const dy
   const double of_peak = r.between_samples[r.peak().mesh];
   add(force_key, of_peak);
   add(factor_key, of_peak);
-  for (int m = 0; m < r.gears; ++m) add(loss_key(m), 0);
+  // Every event may lie anywhere between two samples.
+  const dynamics::TransientOptions defaults;
+  const double samples = static_cast<double>(r.time.size()) * defaults.samples_per_cycle;
+  for (int m = 0; m < r.gears; ++m) {
+    const double events = r.open[m] > 0 ? static_cast<double>(r.statistics.contact_events) : 0;
+    const double change = std::abs(r.open[m] - other.open[m]);
+    figures.set(loss_key(m), {r.open[m], change + events / (2 * samples)});
+  }
   for (int m = r.gears; m < static_cast<int>(r.meshes.size()); ++m) add(shaft_key(m), r.between_samples[m]);
   return figures;
 }
