@@ -9,6 +9,7 @@
 #include "app/systems/planetary/carrier_pins.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_scene.h"
+#include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/stage_warnings.h"
 #include "core/csv.h"
