@@ -150,6 +150,19 @@ BOOST_AUTO_TEST_CASE(misaligned_spur_stage) {
   }
 }
 
+/// The helical stage with inertias, a floating sun and [dynamics].
+std::string with_dynamics(const std::string& tables) {
+  auto scene = helical_stage();
+  for (const auto& [mass, inertia] : {std::pair{"mass_kg = 180\n", "inertia_kg_m2 = 1\n"},
+                                      {"mass_kg = 110\n", "inertia_kg_m2 = 3\n"},
+                                      {"mass_kg = 1500\n", "inertia_kg_m2 = 45\n"},
+                                      {"mass_kg = 509\n", "inertia_kg_m2 = 153\n"}})
+    scene = test::replaced(scene, mass, std::string(mass) + inertia);
+  return scene + tables +
+         "[supports]\nsun_N_per_m = \"floating\"\n[dynamics]\nhalf_backlash_um = 300\nmesh_damping_ratio = "
+         "0.07\nsupport_damping_ratio = 0.03\n";
+}
+
 BOOST_AUTO_TEST_CASE(files_and_warnings) {
   const test::TemporaryFolder folder("statics_4");
   write_file(folder.path() / "scene.toml", helical_stage());
@@ -173,7 +186,7 @@ BOOST_AUTO_TEST_CASE(files_and_warnings) {
                          bearing("guide", "sun", "radial_displacement_um = [0, 1]\nradial_force_N = [0, 1]\n"));
   BOOST_TEST(short_table.at("warnings").dump().find("more than the 1 N at which its table ends") != std::string::npos);
   BOOST_TEST(json.at("warnings").dump().find("table ends") == std::string::npos);
-  const auto swept = solved(folder, helical_stage() + in_space() +
+  const auto swept = solved(folder, with_dynamics(in_space()) +
                                         "[[sweep]]\ninput = \"bearing.spline.tilt_Nm_per_rad\"\nfrom = 1e5\nto = "
                                         "1e8\ncount = 2\n");
   BOOST_TEST(swept.at("warnings").dump().find("leaves out [[sweep]] 1") != std::string::npos,
@@ -236,15 +249,7 @@ BOOST_AUTO_TEST_CASE(ring_in_trunnions) {
 BOOST_AUTO_TEST_CASE(degrees_of_motions_in_the_plan) {
   const test::TemporaryFolder folder("statics_7");
   const auto plan_of = [&](const std::string& tables) {
-    write_file(folder.path() / "scene.toml",
-               test::replaced(test::replaced(test::replaced(test::replaced(helical_stage(), "mass_kg = 180\n",
-                                                                           "mass_kg = 180\ninertia_kg_m2 = 1\n"),
-                                                            "mass_kg = 110\n", "mass_kg = 110\ninertia_kg_m2 = 3\n"),
-                                             "mass_kg = 1500\n", "mass_kg = 1500\ninertia_kg_m2 = 45\n"),
-                              "mass_kg = 509\n", "mass_kg = 509\ninertia_kg_m2 = 153\n") +
-                   tables +
-                   "[supports]\nsun_N_per_m = \"floating\"\n[dynamics]\nhalf_backlash_um = 300\nmesh_damping_ratio = "
-                   "0.07\nsupport_damping_ratio = 0.03\n");
+    write_file(folder.path() / "scene.toml", with_dynamics(tables));
     const auto outcome = test::run_program(folder.path(), "plan scene.toml --inputs");
     BOOST_TEST(outcome.status == 0, outcome.err);
     return outcome.out;

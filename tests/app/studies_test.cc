@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(courses_of_speed_and_torque) {
   const auto& still = found[0].variants[0].response;
   BOOST_TEST(still.settled);
   const auto cycles = still.time.size();
-  const auto times = column(series, "time_s"), forces = column(series, "sun_planet1_N");
+  const auto times = column(series, "time_s"), forces = column(series, "sun_planet1_force_N");
   double most = 0;
   for (std::size_t i = 0; i < times.size() && times[i] < 0.02; ++i) most = std::max(most, forces[i]);
   BOOST_TEST(still.largest.row(0).maxCoeff() == most, boost::test_tools::tolerance(5e-3));
