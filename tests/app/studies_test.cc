@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(courses_of_speed_and_torque) {
   const auto& of_overload = json.at("rings").at("held").at("transients").at(1);
   BOOST_TEST(of_overload.at("name") == "overload");
   BOOST_TEST(of_overload.at("largest_over_nominal").at("value").get<double>() > 2);
-  BOOST_TEST(read_file(folder.path() / "out/report.html").find("Waterfall") != std::string::npos);
+  BOOST_TEST(read_file(folder.path() / "out/report.html").find("id=\"transients\"") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(courses_that_do_not_fit_are_refused) {
