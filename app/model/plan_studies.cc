@@ -86,12 +86,13 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
               load_cases(scene));
   if (const auto rough = scene.transients.empty() ? std::nullopt : system->rough_lumped())
     for (std::size_t i = 0; i < scene.transients.size(); ++i) {
-      // Rough: a stage of ten meshes, its second integration and those on tables changed by their errors.
-      constexpr double per_cycle = 2e-3;
+      // Rough: a stage of ten meshes, its second integration and those on tables changed by their errors. Steps follow
+      // vibrations, not the speed: a second takes as long at any speed.
+      constexpr double per_cycle = 2e-3, settling = 100;
       const auto& t = scene.transients[i];
       add(fmt::format("[[transient]] {}", i + 1),
           fmt::format("{}: {} s of changing speed and torque", t.name, to_text(t.time.back())), 1,
-          per_cycle * t.nominal_time() * rough->problem.mesh_frequency, {});
+          per_cycle * (t.time.back() * rough->problem.mesh_frequency + settling / t.factor_of_speed(0)), {});
     }
   if (sampling)
     add("[monte_carlo]",

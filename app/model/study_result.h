@@ -65,6 +65,7 @@ struct VariantCourse {
   Figure largest_over_nominal{not_known, not_known};  ///< the same over the force of that mesh under the nominal torque
   std::vector<Figure> contact_loss{};                 ///< share of the time, per mesh of gears
   std::vector<Figure> shaft_torque{};                 ///< the largest over the nominal one, per shaft
+  bool other_loads = false;                           ///< loads that follow neither torque nor speed
   std::string failure{};                              ///< empty: none
 };
 

@@ -122,11 +122,11 @@ Table transient_table() {
       .from(-10, 10)
       .absent("1 throughout");
   transient
-      .choice(
-          "inertia_turned_by", &TransientInput::turned_by,
-          {{"drive", TransientInput::Inertia::drive}, {"load", TransientInput::Inertia::load}},
-          "Which torque turns the inertias faster, beside torque_factor: that of the bodies that drive (a motor runs "
-          "up), or of those that are driven (a load that pulls along, or brakes).")
+      .choice("inertia_turned_by", &TransientInput::turned_by,
+              {{"drive", TransientInput::Inertia::drive}, {"load", TransientInput::Inertia::load}},
+              "Torque that turns the inertias faster, beside torque_factor. drive: that of the driving bodies (a motor "
+              "runs "
+              "up). load: that of the driven ones (a load that pulls along, or brakes).")
       .fallback("drive", "a motor runs up");
   return transient.done();
 }

@@ -107,7 +107,7 @@ Json transient_json(const TransientResult& course, std::size_t number, std::size
   for (std::size_t s = 0; s < found.shaft_torque.size(); ++s)
     json["largest_shaft_torque_over_nominal"][r.meshes[static_cast<std::size_t>(r.gears) + s]] =
         figure_json(found.shaft_torque[s]);
-  json["settled_before"] = r.settled;
+  json["settled_before"] = r.settled ? Json(*r.settled) : Json();
   return json;
 }
 

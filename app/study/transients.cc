@@ -17,9 +17,10 @@
 namespace annulus {
 
 ANNULUS_MEMBERS(dynamics::TransientResponse, meshes, gears, nominal, time, speed, torque, largest, smallest, mean, open,
-                between_samples, settling_cycles, settled, spectrum_of, order, window_time, window_speed, amplitude,
-                statistics);
-ANNULUS_MEMBERS(app::VariantCourse, response, largest_force, largest_over_nominal, contact_loss, shaft_torque, failure);
+                open_error, between_samples, settling_cycles, settled, spectrum_of, order, window_time, window_speed,
+                amplitude, statistics);
+ANNULUS_MEMBERS(app::VariantCourse, response, largest_force, largest_over_nominal, contact_loss, shaft_torque,
+                other_loads, failure);
 
 namespace app {
 
@@ -65,14 +66,8 @@ FigureSet with_integration_errors(const dynamics::TransientResponse& r, const dy
   const double of_peak = r.between_samples[r.peak().mesh];
   add(force_key, of_peak);
   add(factor_key, of_peak);
-  // Every event may lie anywhere between two samples.
-  const dynamics::TransientOptions defaults;
-  const double samples = static_cast<double>(r.time.size()) * defaults.samples_per_cycle;
-  for (int m = 0; m < r.gears; ++m) {
-    const double events = r.open[m] > 0 ? static_cast<double>(r.statistics.contact_events) : 0;
-    const double change = std::abs(r.open[m] - other.open[m]);
-    figures.set(loss_key(m), {r.open[m], change + events / (2 * samples)});
-  }
+  for (int m = 0; m < r.gears; ++m)
+    figures.set(loss_key(m), {r.open[m], std::abs(r.open[m] - other.open[m]) + r.open_error[m]});
   for (int m = r.gears; m < static_cast<int>(r.meshes.size()); ++m) add(shaft_key(m), r.between_samples[m]);
   return figures;
 }
@@ -84,6 +79,8 @@ VariantCourse followed(const StudySubject& subject, const TransientInput& input,
   };
   const auto model = subject.model({{}, fmt::format("[[transient]] '{}'", input.name), ""}, variant);
   course.response = at_tolerance(*model, tolerance);
+  const auto system = model->lumped().system;
+  course.other_loads = system.load(dynamics::LoadCause::none).any() || !system.harmonic_loads().empty();
   const auto& r = course.response;
   const auto nominal = with_integration_errors(r, at_tolerance(*model, 10 * tolerance));
   const auto figures = subject.with_errors(
@@ -161,11 +158,16 @@ TransientResult run_transient(const StudySubject& subject, std::size_t number) {
       log::warn(fmt::format("{}: {}", name, course.failure));
       continue;
     }
-    if (!course.response.settled)
+    if (!course.response.settled.value_or(true))
       log::warn(
-          fmt::format("{}: the motion at its first speed and torque had not settled after {} mesh cycles; the "
-                      "beginning of the course contains what was left of it",
+          fmt::format("{}: the motion at the first speed and torque had not settled after {} mesh cycles; begin "
+                      "the course with a longer part in which they stay as they are",
                       name, course.response.settling_cycles));
+    if (course.other_loads && !input.torque.empty())
+      log::warn(
+          fmt::format("{}: weights, torque ripples and what bearings bear at the torque of [stage] keep their size "
+                      "while the torque changes",
+                      name));
     write(course, subject.folder(variant), number + 1);
     log::info(fmt::format("{}: {} mesh cycles, {} steps", name, course.response.time.size(),
                           course.response.statistics.steps));

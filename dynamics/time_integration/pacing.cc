@@ -22,8 +22,9 @@ Eigen::VectorXd rotation_of(const LumpedSystem& system, const std::string& dof, 
       std::count_if(found.modes.begin(), found.modes.end(), [](const auto& m) { return m.frequency == 0; });
   if (free != 1)
     throw InputError(
-        fmt::format("the speed can change in one free rotation alone, and there are {}: a torsional "
-                    "support holds the bodies, or nothing connects some of them",
+        fmt::format("the speed can change in one free rotation alone, and there are {}: a torsional support "
+                    "holds the bodies, or nothing connects some of them. Leave speed_factor out, or let "
+                    "them turn",
                     free));
   const int reference = system.find(dof);
   require(reference >= 0 && turning != 0, fmt::format("degree of freedom '{}' turns with {} m/s", dof, turning));
@@ -64,16 +65,21 @@ Pacing::Pacing(const LumpedSystem& system, Course course, const std::string& dof
     nominal_.push_back(nominal_.back() + (a.speed + b.speed) / 2 * (b.time - a.time));
   }
   const Eigen::LLT<Eigen::MatrixXd> mass(system.mass());
-  rotation_ = rotation_of(system, dof, turning);
   const auto& torque = system.load(LoadCause::torque);
+  rotation_ = of_acceleration_ = Eigen::VectorXd::Zero(dofs_);
+  const bool changes = std::any_of(course_.points.begin(), course_.points.end(),
+                                   [&](const auto& p) { return p.speed != course_.points.front().speed; });
+  if (changes) rotation_ = rotation_of(system, dof, turning);
   Eigen::VectorXd bearing = torque;  // those that bear the torque of the inertias
   for (Eigen::Index i = 0; i < bearing.size(); ++i)
     if ((torque[i] * rotation_[i] > 0) != (by == AcceleratedBy::drive)) bearing[i] = 0;
   const double power = bearing.dot(rotation_);
-  if (power == 0)
-    throw InputError(fmt::format("no torque {} the system, which could turn its inertias faster",
-                                 by == AcceleratedBy::drive ? "drives" : "loads"));
-  of_acceleration_ = mass.solve(rotation_.dot(system.mass() * rotation_) / power * bearing) - rotation_;
+  if (changes && power == 0)
+    throw InputError(
+        fmt::format("no torque {} the system, which could turn its inertias faster; give a torque, or let "
+                    "the other side turn them (inertia_turned_by)",
+                    by == AcceleratedBy::drive ? "drives" : "loads"));
+  if (changes) of_acceleration_ = mass.solve(rotation_.dot(system.mass() * rotation_) / power * bearing) - rotation_;
   of_torque_ = mass.solve(torque);
   of_rotation_ = mass.solve(system.load(LoadCause::rotation));
   const auto& k = system.rotating_stiffness();

@@ -37,8 +37,9 @@ enum class AcceleratedBy { drive, load };
 /// Euler on the vibration itself, smaller than those of Coriolis by the pace's change within a vibration, are left out.
 class Pacing {
  public:
-  /// `turning`: m/s, what the one free rotation of the system has at DOF `dof` in its nominal speed. Throws InputError
-  /// where the system does not turn freely, or in more than one way, or has no torque of the kind that accelerates it.
+  /// `turning`: m/s, what the one free rotation of the system has at DOF `dof` in its nominal speed. Where the speed
+  /// changes, throws InputError for a system that does not turn freely, or in more than one way, or that has no torque
+  /// of the kind that accelerates it.
   Pacing(const LumpedSystem& system, Course course, const std::string& dof, double turning, AcceleratedBy by);
 
   [[nodiscard]] double duration() const { return course_.points.back().time; }  ///< s
@@ -53,7 +54,7 @@ class Pacing {
 
   /// The right-hand side at a nominal time from that of the system, which was found with the pace in its workspace.
   void correct(double nominal, const double* y, double* dy) const;
-  /// v_0, m/s, one per DOF.
+  /// v_0, m/s, one per DOF; zero where the speed stays as it is.
   [[nodiscard]] const Eigen::VectorXd& rotation() const { return rotation_; }
 
  private:

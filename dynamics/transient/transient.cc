@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -19,9 +20,10 @@ namespace {
 
 /// Meshes at equidistant nominal times.
 struct Followed {
-  Eigen::MatrixXf force;  ///< N, meshes x samples: long courses have millions
-  Eigen::VectorXd open;   ///< s without contact, per mesh of gears
-  double duration = 0;    ///< s
+  Eigen::MatrixXf force;       ///< N, meshes x samples: long courses have millions
+  Eigen::VectorXd open;        ///< s without contact, per mesh of gears
+  Eigen::VectorXd at_changes;  ///< s between samples of which one alone has contact
+  double duration = 0;         ///< s
 };
 
 class CourseRun {
@@ -38,7 +40,7 @@ class CourseRun {
       integrator.absolute_tolerance =
           0.1 * integrator.relative_tolerance * of.problem.force_scale / of.problem.stiffness;
     for (int m = 0; m < static_cast<int>(system_.meshes().size()); ++m)
-      if (system_.is_gear_mesh(m)) meshes_.push_back(m);
+      if (system_.is_gear_mesh(m) && system_.meshes()[static_cast<std::size_t>(m)].frequency != 0) meshes_.push_back(m);
     gears_ = static_cast<int>(meshes_.size());
     for (int m = 0; m < static_cast<int>(system_.meshes().size()); ++m)
       if (system_.meshes()[static_cast<std::size_t>(m)].shaft) meshes_.push_back(m);
@@ -63,7 +65,7 @@ class CourseRun {
   }
 
  private:
-  /// Windows at the first speed and torque until their forces repeat.
+  /// Windows at the first speed and torque until their forces repeat, which only whole periods can show.
   void settle(TransientResponse& result, double force_scale) {
     // Whole periods, where windows can show that the motion repeats.
     constexpr int shortest = 20, longest = 100;
@@ -78,26 +80,28 @@ class CourseRun {
       const Eigen::VectorXd peaks = followed.force.rowwise().maxCoeff().cast<double>();
       result.settling_cycles += window;
       const double wanted = options_.steady_tolerance * force_scale;
-      result.settled = period != of_period_ || (before.size() > 0 && (peaks - before).cwiseAbs().maxCoeff() <= wanted);
+      if (period == of_period_) result.settled = before.size() > 0 && (peaks - before).cwiseAbs().maxCoeff() <= wanted;
+      if (result.settled.value_or(false)) break;
       before = peaks;
     }
-    state_.time = 0;  // but for rounding
+    state_.time = 0;  // everything repeats after whole windows
+    statistics_ = {};
   }
 
-  /// The mean of meshes with the same name but for a number at its end.
+  /// Of gears the mean of meshes with the same name but for a number at its end.
   [[nodiscard]] Eigen::VectorXd mean_of_kinds(const Eigen::VectorXd& forces) const {
     std::map<std::string, std::pair<double, int>> kinds;
     std::vector<std::string> names;
-    for (const int m : meshes_) {
-      auto name = system_.meshes()[static_cast<std::size_t>(m)].name;
+    for (int row = 0; row < gears_; ++row) {
+      auto name = system_.meshes()[static_cast<std::size_t>(meshes_[static_cast<std::size_t>(row)])].name;
       while (!name.empty() && std::isdigit(static_cast<unsigned char>(name.back())) != 0) name.pop_back();
       auto& [sum, count] = kinds[name];
       sum += forces[std::ssize(names)];
       ++count;
       names.push_back(std::move(name));
     }
-    Eigen::VectorXd means(forces.size());
-    for (Eigen::Index i = 0; i < means.size(); ++i) {
+    Eigen::VectorXd means = forces;
+    for (Eigen::Index i = 0; i < gears_; ++i) {
       const auto& [sum, count] = kinds[names[static_cast<std::size_t>(i)]];
       means[i] = sum / count;
     }
@@ -119,16 +123,22 @@ class CourseRun {
 
   Followed advance(int cycles) {
     const int samples = cycles * options_.samples_per_cycle;
-    Followed followed{Eigen::MatrixXf(std::ssize(meshes_), samples), Eigen::VectorXd::Zero(gears_)};
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(gears_);
+    Followed followed{Eigen::MatrixXf(std::ssize(meshes_), samples), none, none};
     IntegrationObserver observer;
     observer.samples = samples;
+    std::vector<bool> was_open(workspace_.elastic.size());
     observer.sample = [&](int index, const SystemState& state) {
       const double lasts = 1 / (pacing_.at(state.time).speed * options_.samples_per_cycle * frequency_);
       followed.duration += lasts;
       for (Eigen::Index row = 0; row < std::ssize(meshes_); ++row) {
         const auto m = static_cast<std::size_t>(meshes_[static_cast<std::size_t>(row)]);
         followed.force(row, index) = static_cast<float>(workspace_.force[m]);
-        if (row < gears_ && workspace_.elastic[m] == 0) followed.open[row] += lasts;
+        if (row >= gears_) continue;
+        const bool open = workspace_.elastic[m] == 0;
+        if (open) followed.open[row] += lasts;
+        if (index > 0 && open != was_open[m]) followed.at_changes[row] += lasts;
+        was_open[m] = open;
       }
     };
     const auto statistics = integrate(system_, state_, state_.time + cycles / frequency_, options_.integrator,
@@ -147,12 +157,17 @@ class CourseRun {
     result.largest.resize(rows, cycles);
     result.smallest = result.mean = result.largest;
     result.open = followed.open / followed.duration;
+    result.open_error = followed.at_changes / (2 * followed.duration);
     result.between_samples.resize(rows);
     for (Eigen::Index m = 0; m < rows; ++m) {
       const auto all = followed.force.row(m).cwiseAbs();
-      float largest = 0;
-      for (Eigen::Index i = 0; i < all.size(); i += 2) largest = std::max(largest, all[i]);
-      result.between_samples[m] = all.maxCoeff() > 0 ? 1 - largest / all.maxCoeff() : 0;
+      std::array<float, 2> largest{};  // a largest value shows in one half alone
+      for (Eigen::Index i = 0; i < all.size(); ++i) {
+        auto& of_half = largest.at(static_cast<std::size_t>(i % 2));
+        of_half = std::max(of_half, all[i]);
+      }
+      const auto [less, most] = std::minmax(largest[0], largest[1]);
+      result.between_samples[m] = most > 0 ? 1 - less / most : 0;
     }
     for (int c = 0; c < cycles; ++c) {
       const auto now = pacing_.at((c + 0.5) / frequency_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,10 +31,11 @@ struct TransientResponse {
   Eigen::VectorXd time, speed, torque;      ///< in the middle of each cycle: s; factors
   Eigen::MatrixXd largest, smallest, mean;  ///< N, meshes x cycles
   Eigen::VectorXd open;                     ///< share of the time without contact, per mesh of gears
-  /// By how much less the largest amount of a mesh is in every second sample alone, relative.
+  Eigen::VectorXd open_error;               ///< of it, as changes lie anywhere between two samples
+  /// By how much less the largest amount of a mesh is in the other half of the samples, relative.
   Eigen::VectorXd between_samples;
-  int settling_cycles = 0;  ///< before the course
-  bool settled = false;     ///< the course starts from a steady motion
+  int settling_cycles = 0;        ///< before the course
+  std::optional<bool> settled{};  ///< the course begins from a steady motion; absent: its period is too long to show it
   /// Spectra of the gear mesh with the largest force over windows of `window_cycles`, each half over the one before.
   int spectrum_of = 0;
   static constexpr int window_cycles = 16;

@@ -14,13 +14,14 @@ using namespace annulus;
 
 constexpr double pi = std::numbers::pi;
 
-/// A gauge whose strain under one planet is cos(`waves` x angle), µm/m, at eight places per tooth.
+/// A gauge whose strain under one planet is cos(`waves` x turns), µm/m, at eight places per tooth; the table begins
+/// with the contact in the pitch point, where the planet is not over the middle of a tooth.
 app::MeshResult ring_with_gauge(int teeth, int waves) {
   app::MeshResult mesh;
   mesh.gauges.columns = {"ring_angle_deg", "gauge_1_um_per_m"};
   for (int i = 0; i < 8 * teeth; ++i) {
     const double angle = 2 * pi * i / (8 * teeth);
-    mesh.gauges.rows.push_back({angle * 180 / pi, std::cos(waves * angle)});
+    mesh.gauges.rows.push_back({angle * 180 / pi + 90.0 / teeth, std::cos(waves * angle)});
   }
   return mesh;
 }

@@ -5,11 +5,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <vector>
 
-#include "core/units.h"
 #include "dynamics/figures/spectrum.h"
 
 namespace annulus::app {
@@ -26,20 +24,15 @@ long common_cycles(const dynamics::PlanetaryStage& stage, const dynamics::Dynami
   return cycles <= most_cycles ? cycles : 0;
 }
 
-/// Strain over the angle of a planet in the frame of the ring, as a curve over turns.
-struct GaugeCurve {
-  PeriodicCurve strain;
-  double first = 0;  ///< rad, angle of the first value
-};
-
-std::vector<GaugeCurve> curves_of(const Csv& csv) {
-  std::vector<GaugeCurve> curves;
-  const double first = csv.rows.front()[csv.column("ring_angle_deg")] * units::deg;
+/// Strain over the turns of a planet against the ring, from the contact in the pitch point of the first tooth on: the
+/// first row of the table.
+std::vector<PeriodicCurve> curves_of(const Csv& csv) {
+  std::vector<PeriodicCurve> curves;
   for (std::size_t column = 0; column < csv.columns.size(); ++column) {
     if (!csv.columns[column].starts_with("gauge_")) continue;
     std::vector<double> values;
     for (const auto& row : csv.rows) values.push_back(row[column]);
-    curves.push_back({PeriodicCurve(values, static_cast<int>(values.size())), first});
+    curves.emplace_back(values, static_cast<int>(values.size()));
   }
   return curves;
 }
@@ -67,9 +60,9 @@ Csv gauge_spectrum(const dynamics::PlanetaryStage& stage, const MeshResult& ring
           series.time[0] + static_cast<double>(i) / (static_cast<double>(samples) * response.mesh_frequency);
       for (int n = 0; n < planets; ++n) {
         const double passed = stage.mesh_rate() * time + at(stage.ring_tooth_offset, n) - at(stage.ring_phase_lag, n);
-        const double turns = passed / stage.ring_teeth - curve.first / (2 * std::numbers::pi);
+        const double turns = passed / stage.ring_teeth;
         const double share = series.force(planets + n, i % window) / stage.mean_mesh_force();
-        strain[i] += share * curve.strain(turns);
+        strain[i] += share * curve(turns);
       }
     }
     spectra.push_back(dynamics::spectrum(strain, static_cast<int>(cycles)));

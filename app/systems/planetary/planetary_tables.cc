@@ -238,15 +238,13 @@ Table supports_table() {
            "planet; flexpin: from the wall to the sleeve.")
       .above(0, 1000)
       .needed_if(bends, "the stiffness of the pin follows from it");
-  const auto torsional = [&](const char* name, std::optional<double> SupportInput::*member, const char* meaning) {
-    supports.key(name, member, meaning)
-        .from(0, 1e15)
-        .infinite()
-        .word("rigid", rigid)
-        .absent("rigid where this member is held, but for a ring in mounts beside its axis; otherwise none: it turns");
+  const auto torsional = [&](const char* name, std::optional<double> SupportInput::*member, const char* meaning,
+                             const char* absent = "rigid where this member is held, otherwise none: it turns") {
+    supports.key(name, member, meaning).from(0, 1e15).infinite().word("rigid", rigid).absent(absent);
   };
   torsional("ring_torsional_N_per_m", &SupportInput::ring_torsional,
-            "Torsional support of the ring, in u = base radius × angle.");
+            "Torsional support of the ring, in u = base radius × angle.",
+            "rigid where the ring is held and not in mounts beside its axis, otherwise none: it turns");
   torsional("sun_torsional_N_per_m", &SupportInput::sun_torsional,
             "Torsional support of the sun, in u = base radius × angle.");
   torsional("carrier_torsional_N_per_m", &SupportInput::carrier_torsional,

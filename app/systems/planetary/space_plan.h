@@ -10,8 +10,10 @@
 /// What the plan of a stage says of its bodies in three dimensions.
 namespace annulus::app {
 
-/// The degrees of freedom of the lumped model: `plane` where the scene has nothing in space.
+/// Whether annulus statics has to ask if bodies leave the plane.
 [[nodiscard]] bool has_statics_in_space(const Scene& scene);
+/// The degrees of freedom of the lumped model, without [dynamics] those of annulus statics: `plane` where the scene has
+/// nothing in space.
 [[nodiscard]] std::vector<DofPlan> dofs_in_space(const Scene& scene, const GearGeometry& geometry,
                                                  std::vector<DofPlan> plane);
 

@@ -163,10 +163,11 @@ class StructureChecks : KeyChecks {
     }
     if (known.empty()) return problem(key, "needs bearings that stand on the housing: add [[bearing]]");
     // The torque of a ring that is held enters the housing in its bearing.
-    const bool held = scene_.stage.held == geometry::StageMember::ring;
+    const bool in_bearing =
+        scene_.stage.held == geometry::StageMember::ring && !scene_.own<SpaceInput>().ring_in_mounts();
     try {
       input.seats = read_point_stiffness(file_below_scene(scene_, input.file), known,
-                                         held ? of_ring : std::vector<std::string>{}, "the foundation held");
+                                         in_bearing ? of_ring : std::vector<std::string>{}, "the foundation held");
     } catch (const InputError& error) {
       problem(key, error.what());
     }

@@ -25,8 +25,7 @@ ANNULUS_MEMBERS(dynamics::SpreadFace, width, middle, gap, shape);
 ANNULUS_MEMBERS(app::SpaceResults::Bearing, name, radial_mean, radial_max, axial_mean, axial_max, moment_max,
                 law_deviation, table_end);
 ANNULUS_MEMBERS(app::SpaceResults::FaceMoment, cycles, force, tilt, place);
-ANNULUS_MEMBERS(app::SpaceResults::Mesh, name, place_mean, place_min, place_max, face_width, solid_face, tilted_cycle,
-                moments);
+ANNULUS_MEMBERS(app::SpaceResults::Mesh, name, place_mean, place_min, place_max, face_width, solid_face, moments);
 ANNULUS_MEMBERS(app::SpaceResults::Face, mesh, factor, error, deviation, at, line_load);
 ANNULUS_MEMBERS(app::SpaceResults, bearings, meshes, faces, table);
 

@@ -49,18 +49,20 @@ void add_most_tilted_cycle(SpaceResults::Mesh& result, const dynamics::SpaceMoti
   constexpr int fewest = 8;
   const auto cycle_of = [&](Eigen::Index i) {
     constexpr double rounding = 1e-6;  // mesh cycles
-    return static_cast<int>(std::floor(mesh.cycles[i] - mesh.cycles[0] + rounding));
+    return static_cast<int>(std::floor(std::abs(mesh.cycles[i] - mesh.cycles[0]) + rounding));
   };
   double furthest = -1;
   for (Eigen::Index first = 0, end = 0; first < mesh.force.size(); first = end) {
     for (end = first; end < mesh.force.size() && cycle_of(end) == cycle_of(first);) ++end;
     const auto force = mesh.force.segment(first, end - first).array(),
                place = mesh.place.segment(first, end - first).array();
-    if (end - first < fewest || place.isNaN().any() || force.minCoeff() <= 0) continue;
+    const double spans = std::abs(mesh.cycles[end - 1] - mesh.cycles[first]) * static_cast<double>(end - first) /
+                         static_cast<double>(std::max<Eigen::Index>(1, end - first - 1));
+    constexpr double whole = 0.99;
+    if (end - first < fewest || spans < whole || place.isNaN().any() || force.minCoeff() <= 0) continue;
     const double from_middle = std::abs((force * place).sum() / force.sum());
     if (from_middle <= furthest) continue;
     furthest = from_middle;
-    result.tilted_cycle = cycle_of(first);
     result.moments.clear();
     for (Eigen::Index i = first; i < end; ++i)
       result.moments.push_back({mesh.cycles[i], mesh.force[i], mesh.tilt[i], mesh.place[i]});
@@ -135,7 +137,9 @@ std::vector<Warning> space_result_warnings(const SpaceResults& results, double a
     const auto face = std::find_if(results.faces.begin(), results.faces.end(),
                                    [&](const auto& found) { return found.mesh == mesh->name; });
     text += face == results.faces.end()
-                ? ". The load along this face could not be found"
+                ? ". The load along this face is not known: back flanks carry, the mesh loses contact in every cycle, "
+                  "or no "
+                  "equilibrium of the gears was found"
                 : fmt::format(". In this motion K_Hβ of this mesh is {}", measured(face->factor, face->error));
     list.push_back({"face_tilts", Severity::warning, std::move(text), ring});
   }
@@ -147,8 +151,8 @@ std::vector<Warning> space_result_warnings(const SpaceResults& results, double a
     list.push_back({"face_reduced", Severity::warning,
                     fmt::format("the dynamics has faces as straight about their load. At the tilt of mesh '{}' in this "
                                 "motion its moment over half the face width deviates by up to {:.2g} % of the force "
-                                "from that of the solid gears",
-                                off->mesh, 100 * off->deviation),
+                                "from that of the solid gears{}",
+                                off->mesh, 100 * off->deviation, remedy.empty() ? "" : "; " + remedy),
                     ring});
   for (const auto& bearing : results.bearings)
     if (bearing.table_end > 0 && bearing.radial_max > bearing.table_end)

@@ -33,11 +33,11 @@ struct SpaceResults {
     double place_mean = not_known, place_min = not_known, place_max = not_known;
     double face_width = not_known;  ///< m
     bool solid_face = false;
-    int tilted_cycle = 0;               ///< of the window: that in which its mean force stands furthest from the middle
-    std::vector<FaceMoment> moments{};  ///< of that cycle; empty: too few samples, or light forces
+    /// Of the mesh cycle in which its mean force stands furthest from the middle; empty: none, or too few samples.
+    std::vector<FaceMoment> moments{};
     [[nodiscard]] double furthest() const { return std::max(std::abs(place_min), std::abs(place_max)); }
   };
-  /// The load along the face of a mesh over one mesh cycle (Mesh::tilted_cycle).
+  /// The load along the face of a mesh over one mesh cycle (Mesh::moments).
   struct Face {
     std::string mesh;
     double factor = not_known, error = not_known;  ///< K_Hβ, of the mean load of the cycle

@@ -73,9 +73,8 @@ Table bearing_table(const KindInSpace& of) {
         .key(
             "beside_axis_mm", &BearingInput::beside,
             "Place of a mount beside the axis, x and y as those of loads in the housing: a trunnion or a torque arm of "
-            "a ring that does not turn. Such mounts also keep the ring from turning, unless "
-            "supports.ring_torsional_N_per_m "
-            "is given.")
+            "a ring that does not turn. Such mounts keep the ring from turning, beside "
+            "supports.ring_torsional_N_per_m where it is given.")
         .from(-furthest_mm, furthest_mm)
         .only_if(is("body", {"ring"}), "a mount stands in the housing beside what does not turn")
         .absent("on the axis");
@@ -381,6 +380,7 @@ class SpaceChecks : KeyChecks {
     const std::string key = "bearing.beside_axis_mm";
     if (b.beside.empty() || !usable(key, i)) return;
     if (b.beside.size() != 2) return problem(key, i, fmt::format("needs two values, x and y, not {}", b.beside.size()));
+    if (b.beside[0] == 0 && b.beside[1] == 0) return problem(key, i, "lies on the axis; leave it out");
     if (b.on.value_or(Body::housing) != Body::housing)
       return problem(key, i, "is the place of a mount in the housing; leave bearing.on out");
     if (b.body == Body::ring && usable("stage.held") && scene_.stage.held != geometry::StageMember::ring)

@@ -54,7 +54,9 @@ class Mounts {
     move.row(1) += beside.x() * Row::Unit(5);
     move.row(2) += beside.y() * Row::Unit(3) - beside.x() * Row::Unit(4);
     stiffness_ += move.transpose() * found.bearing.stiffness * move;
-    force_ += move.transpose() * (found.bearing.stiffness * found.deflection + found.bearing.preload);
+    const Vector force = found.bearing.stiffness * found.deflection + found.bearing.preload;
+    force_ += move.transpose() * force;
+    sum_ += force.cwiseAbs().sum() * (1 + beside.norm() + std::abs(found.bearing.place));
     if (!bearing_.name.empty()) bearing_.name += " ";
     bearing_.name += found.bearing.name;
     any_ = true;
@@ -69,11 +71,16 @@ class Mounts {
     const Eigen::MatrixXd mean = mean_over_turn(stiffness_);
     result.stiffness = mean.topLeftCorner<5, 5>();
     result.preload = force_.head<5>() - result.stiffness * motion;
+    // Rounding of mounts that balance each other would make the motion repeat after a turn of the carrier only.
+    constexpr double rounding = 1e-12;
+    for (double& force : result.preload)
+      if (std::abs(force) <= rounding * sum_) force = 0;
     if (turns) stand(result);
     return result;
   }
 
  private:
+  double sum_ = 0;  // N, N m: amounts of all forces and moments
   Eigen::Matrix<double, 6, 6> stiffness_ = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix<double, 6, 1> force_ = Eigen::Matrix<double, 6, 1>::Zero();
   LinearBearing bearing_;
