@@ -199,7 +199,8 @@ LumpedCase lumped_case(const HelicalPair& pair) {
   if (scale == 0)
     throw InputError(
         "a time response of a pair needs a torque or errors: torques of 0 N m and errors of 0 m excite nothing");
-  return {std::move(system), {pair.mesh_frequency(), pair.error_period(), scale, mean_stiffness(pair.mesh)},
+  return {std::move(system),
+          {pair.mesh_frequency(), pair.error_period(), scale, mean_stiffness(pair.mesh)},
           turning_of(pair.shaft_ends())};
 }
 
