@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -60,10 +61,8 @@ FlanksUnderLoad flanks_under(const FaceLaw& law, double force, double place) {
     // Where one end alone touches, the face turns about it almost freely.
     constexpr double least = 1e-6;
     const Eigen::Matrix2d tangent = load.tangent + least * load.tangent.trace() * Eigen::Matrix2d::Identity();
-    const double determinant = tangent(0, 0) * tangent(1, 1) - tangent(0, 1) * tangent(1, 0);
-    if (!(determinant > 0)) break;
-    Eigen::Vector2d step((tangent(1, 1) * rest[0] - tangent(0, 1) * rest[1]) / determinant,
-                         (tangent(0, 0) * rest[1] - tangent(1, 0) * rest[0]) / determinant);
+    if (!(tangent.determinant() > 0)) break;
+    const Eigen::Vector2d step = tangent.inverse() * rest;
     constexpr double sufficient = 1e-4, shortest = 1e-4;
     std::optional<FaceLoad> next;
     for (double length = 1; length > shortest && !next; length /= 2) {

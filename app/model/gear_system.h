@@ -102,8 +102,8 @@ class GearSystem {
   /// Bodies at which it can be part of a train; the lumped models then have LumpedModel::Abilities::lumped. Empty: it
   /// cannot.
   [[nodiscard]] virtual std::vector<TurningBody> turning_bodies() const { return {}; }
-  /// The lumped model with rough stiffnesses, before anything is solved, of a system with such bodies: for the cost of
-  /// a train.
+  /// The lumped model with rough stiffnesses, before anything is solved, of a system with such bodies and of trains:
+  /// for the cost of motions.
   [[nodiscard]] virtual std::optional<dynamics::LumpedCase> rough_lumped() const { return std::nullopt; }
   /// The faces of a lumped model in which LumpedModel::in_space() finds something. Tables are referred to.
   [[nodiscard]] virtual MovingFaces moving_faces(std::size_t /*variant*/,

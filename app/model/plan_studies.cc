@@ -92,7 +92,7 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
       const auto& t = scene.transients[i];
       add(fmt::format("[[transient]] {}", i + 1),
           fmt::format("{}: {} s of changing speed and torque", t.name, to_text(t.time.back())), 1,
-          per_cycle * (t.time.back() * rough->problem.mesh_frequency + settling / t.factor_of_speed(0)), {});
+          per_cycle * (t.time.back() * rough->problem.mesh_frequency + settling / t.course().points.front().speed), {});
     }
   if (sampling)
     add("[monte_carlo]",

@@ -12,7 +12,7 @@
 #include "core/not_known.h"
 #include "dynamics/optimisation/optimise.h"
 #include "dynamics/statistics/statistics.h"
-#include "dynamics/transient/transient.h"
+#include "dynamics/transient/transient_figures.h"
 
 /// What studies find: named figures of many responses to changed inputs, whatever the kind of the stage.
 namespace annulus::app {
@@ -61,17 +61,16 @@ struct LoadSpectrumResult {
 /// What a variant does while speed and torque follow a course.
 struct VariantCourse {
   dynamics::TransientResponse response{};
-  Figure largest_force{not_known, not_known};         ///< N, of any gear mesh, by amount
-  Figure largest_over_nominal{not_known, not_known};  ///< the same over the force of that mesh under the nominal torque
-  std::vector<Figure> contact_loss{};                 ///< share of the time, per mesh of gears
-  std::vector<Figure> shaft_torque{};                 ///< the largest over the nominal one, per shaft
-  bool other_loads = false;                           ///< loads that follow neither torque nor speed
-  std::string failure{};                              ///< empty: none
+  FigureSet figures{};    ///< dynamics::transient_figures(), and those of each mesh and shaft
+  std::string failure{};  ///< empty: none
 };
 
 struct TransientResult {
   TransientInput input;
   std::vector<VariantCourse> variants{};
+
+  /// What a user must know of a variant.
+  [[nodiscard]] std::vector<std::string> warnings(std::size_t variant) const;
 };
 
 struct FigureStatistics {

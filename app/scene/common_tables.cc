@@ -1,5 +1,7 @@
 #include "app/scene/common_tables.h"
 
+#include <tuple>
+
 #include "app/scene/scene_declare.h"
 #include "app/scene/scene_kind.h"
 
@@ -112,21 +114,15 @@ Table dynamics_table() {
   lumped.key("support_damping_ratio", &DynamicsInput::support_damping_ratio, "Damping ratio of every bearing.")
       .required()
       .from(0, 2);
-  lumped
-      .key("modal_damping_ratio", &DynamicsInput::modal_damping_ratio,
-           "Damping ratio of every mode of the whole system at the mean mesh stiffness, beside meshes and bearings.")
-      .fallback(0.0, "none")
-      .from(0, 2);
-  lumped
-      .key("rayleigh_mass_per_s", &DynamicsInput::rayleigh_mass,
-           "Rayleigh damping, beside meshes and bearings: this times the mass.")
-      .fallback(0.0, "none")
-      .from(0, 1e6);
-  lumped
-      .key("rayleigh_stiffness_s", &DynamicsInput::rayleigh_stiffness,
-           "Rayleigh damping: this times the stiffness, of meshes while they touch.")
-      .fallback(0.0, "none")
-      .from(0, 1);
+  for (const auto& [name, member, high, meaning] :
+       {std::tuple{"modal_damping_ratio", &DynamicsInput::modal_damping_ratio, 2.0,
+                   "Damping ratio of every mode of the whole system at the mean mesh stiffness, beside meshes and "
+                   "bearings."},
+        {"rayleigh_mass_per_s", &DynamicsInput::rayleigh_mass, 1e6,
+         "Rayleigh damping, beside meshes and bearings: this times the mass."},
+        {"rayleigh_stiffness_s", &DynamicsInput::rayleigh_stiffness, 1.0,
+         "Rayleigh damping: this times the stiffness, of meshes while they touch."}})
+    lumped.key(name, member, meaning).fallback(0.0, "none").from(0, high);
   lumped
       .choice("mesh_damping", &DynamicsInput::mesh_damping,
               {{"in_contact", MeshDamping::in_contact}, {"always", MeshDamping::always}},

@@ -122,8 +122,8 @@ Table transient_table() {
       .from(-10, 10)
       .absent("1 throughout");
   transient
-      .choice("inertia_turned_by", &TransientInput::turned_by,
-              {{"drive", TransientInput::Inertia::drive}, {"load", TransientInput::Inertia::load}},
+      .choice("inertia_turned_by", &TransientInput::accelerated_by,
+              {{"drive", dynamics::AcceleratedBy::drive}, {"load", dynamics::AcceleratedBy::load}},
               "Torque that turns the inertias faster, beside torque_factor. drive: that of the driving bodies (a motor "
               "runs "
               "up). load: that of the driven ones (a load that pulls along, or brakes).")

@@ -43,12 +43,14 @@ Plot force_plot(const TransientResponse& r) {
 
 Plot course_plot(const TransientInput& input) {
   Plot plot = wide_plot("Course", time_axis, "factor", 180);
-  for (const auto& [label, factor, colour] :
-       {std::tuple{"speed", &TransientInput::factor_of_speed, 0}, {"torque", &TransientInput::factor_of_torque, 1}}) {
-    Series series{.label = label, .x = input.time, .colour = static_cast<std::size_t>(colour)};
-    for (std::size_t i = 0; i < input.time.size(); ++i) series.y.push_back((input.*factor)(i));
-    plot.series.push_back(std::move(series));
+  Series speed{.label = "speed", .colour = 0}, torque{.label = "torque", .colour = 1};
+  for (const auto& point : input.course().points) {
+    speed.x.push_back(point.time);
+    speed.y.push_back(point.speed);
+    torque.x.push_back(point.time);
+    torque.y.push_back(point.torque);
   }
+  plot.series = {std::move(speed), std::move(torque)};
   return plot;
 }
 
@@ -95,19 +97,19 @@ Blocks one_course(const TransientResult& course, std::size_t variant) {
   if (!found.failure.empty()) return paragraph("Not found: " + found.failure);
   const auto& r = found.response;
   const auto peak = r.peak();
-  PageTable table{.head = {"", ""}};
+  PageTable table{.head = {"result", "value"}};
   const auto row = [&](const std::string& what, const Text& value) { table.rows.push_back({what, value}); };
-  row("largest mesh force", measured_in_unit(found.largest_force, shown_units::force) + " at " +
-                                r.meshes[static_cast<std::size_t>(peak.mesh)]);
-  row("over the force under the nominal torque", measured(found.largest_over_nominal, 1));
-  row("at the time", fmt::format("{} s, at {} of the speed", to_text(peak.time, 4), to_text(peak.speed, 4)));
-  for (std::size_t m = 0; m < found.contact_loss.size(); ++m)
-    if (found.contact_loss[m].value > 0)
-      row("share of the time without contact, " + r.meshes[m], measured(found.contact_loss[m], 1));
-  for (std::size_t s = 0; s < found.shaft_torque.size(); ++s)
-    row("largest torque over the nominal one, " + r.meshes[static_cast<std::size_t>(r.gears) + s],
-        measured(found.shaft_torque[s], 1));
+  for (const auto& spec : dynamics::transient_figures())
+    if (const auto* entry = found.figures.find(spec.key))
+      row(with_unit(spec.title, spec.unit), measured(entry->figure, spec.scale));
+  row("the largest mesh force acts",
+      fmt::format("at {}, {} s from the beginning, at {} of the speed", r.meshes[static_cast<std::size_t>(peak.mesh)],
+                  to_text(peak.time, 4), to_text(peak.speed, 4)));
+  for (int shaft = r.gears; shaft < static_cast<int>(r.meshes.size()); ++shaft)
+    row("largest torque over the nominal one, " + r.meshes[static_cast<std::size_t>(shaft)],
+        measured(found.figures.figure(dynamics::course_element_key(shaft)), 1));
   Blocks blocks = table;
+  for (const auto& warning : course.warnings(variant)) blocks += paragraph("Warning: " + warning + ".");
   blocks += Pictures{{course_plot(course.input), force_plot(r)}};
   if (r.window_time.size() > 1)
     blocks += Pictures{{cuts_plot(r), waterfall(r)},

@@ -91,7 +91,7 @@ void check_transients(const Scene& scene) {
   const auto rough = system->rough_lumped();
   for (std::size_t i = 0; rough && i < scene.transients.size(); ++i) {
     constexpr double most = dynamics::TransientOptions::most_cycles;
-    const double cycles = scene.transients[i].nominal_time() * rough->problem.mesh_frequency;
+    const double cycles = scene.transients[i].course().nominal_times().back() * rough->problem.mesh_frequency;
     if (cycles > most)
       throw InputError(
           fmt::format("{}: transient.time_s: the course has {:.3g} mesh cycles; {:g} are possible. Use "

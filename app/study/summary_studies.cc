@@ -97,17 +97,16 @@ Json transient_json(const TransientResult& course, std::size_t number, std::size
   }
   const auto& r = found.response;
   const auto peak = r.peak();
-  json["largest_mesh_force_N"] = figure_json(found.largest_force);
-  json["largest_over_nominal"] = figure_json(found.largest_over_nominal);
+  for (const auto& spec : dynamics::transient_figures())
+    if (const auto* entry = found.figures.find(spec.key)) json["results"][spec.key] = figure_json(entry->figure);
   json["at"] = {{"mesh", r.meshes[static_cast<std::size_t>(peak.mesh)]},
                 {"time_s", json_number(peak.time)},
                 {"speed_factor", json_number(peak.speed)}};
-  for (std::size_t m = 0; m < found.contact_loss.size(); ++m)
-    json["contact_loss"][r.meshes[m]] = figure_json(found.contact_loss[m]);
-  for (std::size_t s = 0; s < found.shaft_torque.size(); ++s)
-    json["largest_shaft_torque_over_nominal"][r.meshes[static_cast<std::size_t>(r.gears) + s]] =
-        figure_json(found.shaft_torque[s]);
+  for (int row = 0; row < static_cast<int>(r.meshes.size()); ++row)
+    json[row < r.gears ? "contact_loss" : "shaft_torque"][r.meshes[static_cast<std::size_t>(row)]] =
+        figure_json(found.figures.figure(dynamics::course_element_key(row)));
   json["settled_before"] = r.settled ? Json(*r.settled) : Json();
+  json["warnings"] = course.warnings(variant);
   return json;
 }
 

@@ -37,33 +37,16 @@ Eigen::VectorXd rotation_of(const LumpedSystem& system, const std::string& dof, 
 Eigen::SparseMatrix<double, Eigen::RowMajor> over_mass(const Eigen::LLT<Eigen::MatrixXd>& mass,
                                                        const Eigen::MatrixXd& matrix) {
   constexpr double rounding = 1e-14;
-  return mass.solve(matrix).sparseView(mass.solve(matrix).cwiseAbs().maxCoeff(), rounding);
+  const Eigen::MatrixXd solved = mass.solve(matrix);
+  return solved.sparseView(solved.cwiseAbs().maxCoeff(), rounding);
 }
 
 }  // namespace
 
-void Course::check() const {
-  if (points.size() < 2) throw InputError(fmt::format("a course needs two points at least, not {}", points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& p = points[i];
-    if (i == 0 ? p.time != 0 : !(p.time > points[i - 1].time))
-      throw InputError(fmt::format("point {} of a course has the time {} s; times rise from 0", i + 1, p.time));
-    if (!(p.speed > 0) || !std::isfinite(p.speed) || !std::isfinite(p.torque))
-      throw InputError(
-          fmt::format("point {} of a course has {} of the speed and {} of the torque; the speed has to "
-                      "stay above 0",
-                      i + 1, p.speed, p.torque));
-  }
-}
-
 Pacing::Pacing(const LumpedSystem& system, Course course, const std::string& dof, double turning, AcceleratedBy by)
     : dofs_(system.dofs()), course_(std::move(course)), change_(system.dofs()) {
   course_.check();
-  nominal_.push_back(0);
-  for (std::size_t i = 1; i < course_.points.size(); ++i) {
-    const auto &a = course_.points[i - 1], &b = course_.points[i];
-    nominal_.push_back(nominal_.back() + (a.speed + b.speed) / 2 * (b.time - a.time));
-  }
+  nominal_ = course_.nominal_times();
   const Eigen::LLT<Eigen::MatrixXd> mass(system.mass());
   const auto& torque = system.load(LoadCause::torque);
   rotation_ = of_acceleration_ = Eigen::VectorXd::Zero(dofs_);

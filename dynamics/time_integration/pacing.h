@@ -5,23 +5,9 @@
 #include <vector>
 
 #include "dynamics/system/lumped_system.h"
+#include "dynamics/time_integration/course.h"
 
 namespace annulus::dynamics {
-
-/// A course of speed and torque in time, in factors of those for which a system was built; straight between its points,
-/// constant before the first and behind the last one.
-struct Course {
-  struct Point {
-    double time = 0;               ///< s, from 0 on, rising
-    double speed = 1, torque = 1;  ///< speed > 0
-  };
-  std::vector<Point> points;
-  /// Throws InputError naming the point that cannot be used.
-  void check() const;
-};
-
-/// Which bodies bear the torque that turns the inertias faster.
-enum class AcceleratedBy { drive, load };
 
 /// A system whose speed and torque follow a course.
 ///
@@ -42,8 +28,7 @@ class Pacing {
   /// of the kind that accelerates it.
   Pacing(const LumpedSystem& system, Course course, const std::string& dof, double turning, AcceleratedBy by);
 
-  [[nodiscard]] double duration() const { return course_.points.back().time; }  ///< s
-  [[nodiscard]] double nominal_end() const { return nominal_.back(); }          ///< s, of nominal time
+  [[nodiscard]] double nominal_end() const { return nominal_.back(); }  ///< s
   /// At a nominal time; before 0 and behind the end nothing changes.
   struct Now {
     double time = 0;  ///< s

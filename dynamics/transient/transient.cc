@@ -54,6 +54,7 @@ class CourseRun {
                                    TransientOptions::most_cycles));
     for (const int m : meshes_) result.meshes.push_back(system_.meshes()[static_cast<std::size_t>(m)].name);
     result.gears = gears_;
+    result.other_loads = system_.load(LoadCause::none).any() || !system_.harmonic_loads().empty();
     settle(result, force_scale);
     result.nominal = nominal();
     const int cycles = std::max(1, static_cast<int>(std::ceil(in_course - 1e-9)));

@@ -24,10 +24,10 @@ struct TransientOptions {
 
 /// What meshes do in every cycle of the fastest mesh.
 struct TransientResponse {
-  std::vector<std::string> meshes;  ///< those of gears, then shafts; per row
-  int gears = 0;                    ///< how many are meshes of gears
-  Eigen::VectorXd
-      nominal;  ///< N, per mesh: mean of a period, and of meshes that differ in their number, at the nominal torque
+  std::vector<std::string> meshes;  ///< one row each: those of gears, then shafts
+  int gears = 0;                    ///< rows that are meshes of gears
+  /// N, per row, at the nominal torque: the mean of a period, of gears that differ in their number alone of all.
+  Eigen::VectorXd nominal;
   Eigen::VectorXd time, speed, torque;      ///< in the middle of each cycle: s; factors
   Eigen::MatrixXd largest, smallest, mean;  ///< N, meshes x cycles
   Eigen::VectorXd open;                     ///< share of the time without contact, per mesh of gears
@@ -41,6 +41,7 @@ struct TransientResponse {
   static constexpr int window_cycles = 16;
   Eigen::VectorXd order, window_time, window_speed;  ///< of the mesh frequency; s; factor in the middle
   Eigen::MatrixXd amplitude;                         ///< N, orders x windows
+  bool other_loads = false;                          ///< some follow neither torque nor speed: they keep their size
   IntegratorStatistics statistics{};
 
   struct Peak {

@@ -42,7 +42,6 @@ inline PlanetaryStage lumped(SpatialStage s) {
   p.ring.inertia = 120;
   p.carrier.inertia = 130;
   p.space = space_about_equilibrium(s, {2.1, 90, 110, 1.9});
-  p.ring.torsional_support += p.space->ring_mounts / (p.ring.radius * p.ring.radius);
   p.space->sun_face.width = sun_width;
   p.space->ring_face.width = ring_width;
   p.set_half_backlash(1e-3);  // back flanks far away: driving ones do not pull

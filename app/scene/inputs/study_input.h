@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/time_integration/course.h"
+
 namespace annulus::app {
 
 enum class SweepScale { linear, logarithmic };
@@ -84,19 +86,15 @@ struct LoadClassInput {
 
 /// Speed and torque that change in time.
 struct TransientInput {
-  enum class Inertia { drive, load };
   std::string name;
   std::vector<double> time;           ///< s, from 0 on
   std::vector<double> speed, torque;  ///< factors, one per time; empty: 1
-  Inertia turned_by = Inertia::drive;
-  [[nodiscard]] double factor_of_speed(std::size_t i) const { return speed.empty() ? 1 : speed.at(i); }
-  [[nodiscard]] double factor_of_torque(std::size_t i) const { return torque.empty() ? 1 : torque.at(i); }
-  /// Over the whole course: rotations over those in as many seconds of the nominal speed, s.
-  [[nodiscard]] double nominal_time() const {
-    double sum = 0;
-    for (std::size_t i = 1; i < time.size(); ++i)
-      sum += (factor_of_speed(i) + factor_of_speed(i - 1)) / 2 * (time[i] - time[i - 1]);
-    return sum;
+  dynamics::AcceleratedBy accelerated_by = dynamics::AcceleratedBy::drive;
+  [[nodiscard]] dynamics::Course course() const {
+    dynamics::Course course;
+    for (std::size_t i = 0; i < time.size(); ++i)
+      course.points.push_back({time[i], speed.empty() ? 1 : speed.at(i), torque.empty() ? 1 : torque.at(i)});
+    return course;
   }
 };
 

@@ -164,6 +164,8 @@ const std::vector<FigureSpec>& all_pair_figures() {
     specs.insert(specs.end(), mesh.begin(), mesh.end());
     const auto& model = dynamics::pair_figures();
     specs.insert(specs.end(), model.begin(), model.end());
+    const auto& courses = dynamics::transient_figures();
+    specs.insert(specs.end(), courses.begin(), courses.end());
     return specs;
   }();
   return list;

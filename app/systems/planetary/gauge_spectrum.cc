@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "app/systems/planetary/strain_gauges.h"
 #include "dynamics/figures/spectrum.h"
 
 namespace annulus::app {
@@ -24,19 +25,6 @@ long common_cycles(const dynamics::PlanetaryStage& stage, const dynamics::Dynami
   return cycles <= most_cycles ? cycles : 0;
 }
 
-/// Strain over the turns of a planet against the ring, from the contact in the pitch point of the first tooth on: the
-/// first row of the table.
-std::vector<PeriodicCurve> curves_of(const Csv& csv) {
-  std::vector<PeriodicCurve> curves;
-  for (std::size_t column = 0; column < csv.columns.size(); ++column) {
-    if (!csv.columns[column].starts_with("gauge_")) continue;
-    std::vector<double> values;
-    for (const auto& row : csv.rows) values.push_back(row[column]);
-    curves.emplace_back(values, static_cast<int>(values.size()));
-  }
-  return curves;
-}
-
 }  // namespace
 
 Csv gauge_spectrum(const dynamics::PlanetaryStage& stage, const MeshResult& ring_mesh,
@@ -45,22 +33,20 @@ Csv gauge_spectrum(const dynamics::PlanetaryStage& stage, const MeshResult& ring
   if (cycles == 0) return {};
   const auto& series = response.series;
   const Eigen::Index window = series.time.size(), samples = window / response.window_cycles;
+  const auto system = dynamics::assemble(stage);
   const int planets = stage.planets();
-  const auto at = [](const std::vector<double>& list, int n) {
-    return list.empty() ? 0.0 : list[static_cast<std::size_t>(n)];
-  };
   Csv csv;
   csv.columns = {"mesh_order", "carrier_order", "frequency_Hz"};
   std::vector<dynamics::Spectrum> spectra;
-  for (const auto& curve : curves_of(ring_mesh.gauges)) {
+  for (const auto& curve : gauge_curves(ring_mesh.gauges)) {
     csv.columns.push_back(fmt::format("gauge_{}_um_per_m", spectra.size() + 1));
     Eigen::VectorXd strain = Eigen::VectorXd::Zero(cycles * samples);
     for (Eigen::Index i = 0; i < strain.size(); ++i) {
       const double time =
           series.time[0] + static_cast<double>(i) / (static_cast<double>(samples) * response.mesh_frequency);
       for (int n = 0; n < planets; ++n) {
-        const double passed = stage.mesh_rate() * time + at(stage.ring_tooth_offset, n) - at(stage.ring_phase_lag, n);
-        const double turns = passed / stage.ring_teeth;
+        const auto& mesh = system.meshes()[static_cast<std::size_t>(planets + n)];
+        const double turns = (mesh.frequency * time + mesh.phase_offset) / stage.ring_teeth;
         const double share = series.force(planets + n, i % window) / stage.mean_mesh_force();
         strain[i] += share * curve(turns);
       }

@@ -217,6 +217,8 @@ const std::vector<FigureSpec>& all_planetary_figures() {
     specs.insert(specs.end(), assemblies.begin(), assemblies.end());
     const auto& equilibrium = static_figures();
     specs.insert(specs.end(), equilibrium.begin(), equilibrium.end());
+    const auto& courses = dynamics::transient_figures();
+    specs.insert(specs.end(), courses.begin(), courses.end());
     return specs;
   }();
   return list;

@@ -78,7 +78,6 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
   const auto inertias = tilt_inertias(scene, geometry, ring);
   about(scene, "bearing", [&] { stage.space = dynamics::space_about_equilibrium(spatial, inertias); });
   stage.space->laws = scene.dynamics->bearing_laws;
-  stage.ring.torsional_support += stage.space->ring_mounts / (stage.ring.radius * stage.ring.radius);
   if (const auto& g = scene.own<SpaceInput>().gravity) stage.space->mass_place = {g->sun, g->ring, g->carrier};
   const auto& set = geometry.rings.at(ring).set;
   const auto& e = scene.errors;
@@ -123,10 +122,10 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
   };
   for (const auto& b : space.bearings) {
     const auto made = stage_bearing(b, {b.body}, b.name);
-    if (turns && in_housing(b) && dynamics::is_nonlinear(made)) past_carrier.push_back("'" + b.name + "'");
-    const bool stands = made.frame() == dynamics::StageFrame::housing, beside = made.beside.any();
-    if (beside && dynamics::is_nonlinear(made)) past_carrier.push_back("'" + b.name + "'");
-    if ((stands && b.has_directions()) || in_housing(b) || beside) directed.push_back("'" + b.name + "'");
+    const bool past = turns && (in_housing(b) || made.beside.any());
+    if (past && dynamics::is_nonlinear(made)) past_carrier.push_back("'" + b.name + "'");
+    const bool stands = made.frame() == dynamics::StageFrame::housing;
+    if ((stands && b.has_directions()) || in_housing(b) || made.beside.any()) directed.push_back("'" + b.name + "'");
   }
   if (!past_carrier.empty())
     list.push_back(
@@ -139,7 +138,7 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
              fmt::join(past_carrier, ", "))});
   if (!directed.empty())
     list.push_back({"bearings_averaged", Severity::warning,
-                    fmt::format("the stiffness of bearing {} in the housing depends on the direction; the dynamics has "
+                    fmt::format("bearing {} in the housing does not hold alike in all directions; the dynamics has "
                                 "its mean over a turn of the carrier",
                                 fmt::join(directed, ", "))});
   std::vector<std::string> assumed;

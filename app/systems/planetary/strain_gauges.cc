@@ -188,6 +188,17 @@ std::optional<double> GaugeReadings::face_load_factor(std::size_t gauge) const {
   return largest * count / sum;
 }
 
+std::vector<PeriodicCurve> gauge_curves(const Csv& gauges) {
+  std::vector<PeriodicCurve> curves;
+  for (std::size_t column = 0; column < gauges.columns.size(); ++column) {
+    if (!gauges.columns[column].starts_with("gauge_")) continue;
+    std::vector<double> values;
+    for (const auto& row : gauges.rows) values.push_back(row[column]);
+    curves.emplace_back(values, static_cast<int>(values.size()));
+  }
+  return curves;
+}
+
 std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::PlanetarySet& set,
                                             const MeshResult& ring_mesh) {
   const auto& csv = ring_mesh.gauges;
@@ -204,21 +215,19 @@ std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::
   GaugeReadings readings;
   for (std::size_t i = 0; i < rows; ++i)
     readings.angle.push_back(turn * static_cast<double>(i) / static_cast<double>(rows));
+  const auto curves = gauge_curves(csv);
   std::size_t number = 0;
   for (std::size_t g = 0; g < scene.strain_gauges.size(); ++g) {
     const auto& input = scene.strain_gauges[g];
     if (input.ring && *input.ring != ring_mesh.model.ring) continue;
     for (const double position : positions_of(input)) {
-      std::vector<double> alone(rows);
-      const auto column = csv.column(fmt::format("gauge_{}_um_per_m", ++number));
-      for (std::size_t i = 0; i < rows; ++i) alone[i] = csv.rows[i][column] * micro;
-      const PeriodicCurve curve(alone, static_cast<int>(rows));
+      const auto& curve = curves.at(number++);
       GaugeReading reading{name_at(input, position), g, {}};
       for (const double carrier : readings.angle) {
         double sum = 0;
         for (int n = 0; n < set.planets(); ++n)
           sum += curve((carrier + set.planet_angle(n) - first) / (step * static_cast<double>(rows)));
-        reading.strain.push_back(sum);
+        reading.strain.push_back(sum * micro);
       }
       const auto [low, high] = std::minmax_element(reading.strain.begin(), reading.strain.end());
       reading.smallest = *low;

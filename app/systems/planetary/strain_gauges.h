@@ -46,6 +46,9 @@ struct GaugeReadings {
   /// their mean one. Nothing of others.
   [[nodiscard]] std::optional<double> face_load_factor(std::size_t gauge) const;
 };
+/// Strain of each gauge (MeshResult::gauges, µm/m) under one planet over its turns against the ring, from the first row
+/// of the table on: there the contact is in the pitch point of the first tooth.
+[[nodiscard]] std::vector<PeriodicCurve> gauge_curves(const Csv& gauges);
 /// Nothing without gauges. Every planet carries the mean mesh force, and its mesh strains the ring as if it were alone.
 [[nodiscard]] std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::PlanetarySet& set,
                                                           const MeshResult& ring_mesh);

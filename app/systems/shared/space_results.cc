@@ -64,7 +64,9 @@ void add_most_tilted_cycle(SpaceResults::Mesh& result, const dynamics::SpaceMoti
     if (from_middle <= furthest) continue;
     furthest = from_middle;
     result.moments.clear();
-    for (Eigen::Index i = first; i < end; ++i)
+    constexpr Eigen::Index most = 16;  // each is several contact solutions
+    const Eigen::Index step = std::max<Eigen::Index>(1, (end - first) / most);
+    for (Eigen::Index i = first; i < end; i += step)
       result.moments.push_back({mesh.cycles[i], mesh.force[i], mesh.tilt[i], mesh.place[i]});
   }
 }

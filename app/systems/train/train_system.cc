@@ -78,6 +78,10 @@ class TrainSystem final : public GearSystem {
 
   [[nodiscard]] std::vector<PlannedResponse> responses() const override { return train_responses(scene(), parts()); }
 
+  [[nodiscard]] std::optional<dynamics::LumpedCase> rough_lumped() const override {
+    return dynamics::lumped_case(rough_train(scene(), parts()));
+  }
+
   [[nodiscard]] bool offers(SweepDirection direction) const override {
     return std::all_of(parts().begin(), parts().end(),
                        [&](const auto& part) { return part.system->offers(direction); });
@@ -161,6 +165,16 @@ class TrainSystem final : public GearSystem {
   mutable std::vector<WorkingPart> parts_;
 };
 
+const std::vector<FigureSpec>& all_train_figures() {
+  static const auto list = [] {
+    auto specs = dynamics::train_figures();
+    const auto& courses = dynamics::transient_figures();
+    specs.insert(specs.end(), courses.begin(), courses.end());
+    return specs;
+  }();
+  return list;
+}
+
 }  // namespace
 
 SystemKind train_kind() {
@@ -170,7 +184,7 @@ SystemKind train_kind() {
            .results = [] { return figure_keys(dynamics::train_figures()); },
            .example = "",
            .gears = false},
-          dynamics::train_figures,
+          all_train_figures,
           dynamics::train_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<TrainSystem>(scene); }};
 }

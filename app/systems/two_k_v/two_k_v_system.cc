@@ -147,6 +147,8 @@ const std::vector<FigureSpec>& all_two_k_v_figures() {
     specs.insert(specs.end(), arc.begin(), arc.end());
     const auto& model = dynamics::two_k_v_figures();
     specs.insert(specs.end(), model.begin(), model.end());
+    const auto& courses = dynamics::transient_figures();
+    specs.insert(specs.end(), courses.begin(), courses.end());
     return specs;
   }();
   return list;

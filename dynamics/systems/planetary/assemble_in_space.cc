@@ -25,6 +25,7 @@ SpaceBody data_of(const PlanetaryStage& stage, const StageBody& body) {
       auto ring = central(stage.ring, tilt.ring, off.ring, stage.ring_speed);
       if (const auto* coupling = stage.space->coupling_that_turns(body))
         ring.torsional_support = coupling->stiffness.bottomRightCorner<1, 1>().value();
+      ring.torsional_support += stage.space->ring_mounts / (ring.radius * ring.radius);
       return ring;
     }
     case Kind::carrier:

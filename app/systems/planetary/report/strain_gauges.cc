@@ -14,34 +14,35 @@ namespace annulus::app {
 namespace {
 
 /// The highest lines of every gauge, with their distance from the nearest multiple of the mesh frequency.
-Blocks spectrum_blocks(const Csv& csv, const std::string& ring) {
+Blocks spectrum_blocks(const Csv& csv, const GaugeReadings& readings, const std::string& ring) {
   constexpr std::size_t first = 3;  // column of the first gauge
   auto plot = wide_plot("Ring " + ring + " in motion", "order of the mesh frequency", "amplitude of the strain, µm/m");
   PageTable table{
       .head = {"gauge", "order of the mesh frequency", "sideband, carrier orders", "frequency, Hz", "amplitude, µm/m"},
       .style = PageTable::Style::numbers};
-  for (std::size_t column = first; column < csv.columns.size(); ++column) {
-    Series lines{
-        .label = fmt::format("gauge {}", column - first + 1), .colour = column - first, .style = Series::Style::dots};
+  for (std::size_t g = 0; g < readings.gauges.size(); ++g) {
+    const auto& gauge = readings.gauges[g];
+    const double relative = gauge.error / std::max(std::abs(gauge.largest), std::abs(gauge.smallest));
+    Series lines{.label = gauge.gauge, .colour = g, .style = Series::Style::dots};
     auto rows = csv.rows;
     for (const auto& row : rows) {
       lines.x.push_back(row[0]);
-      lines.y.push_back(row[column]);
+      lines.y.push_back(row[first + g]);
     }
     plot.series.push_back(std::move(lines));
     constexpr std::size_t shown = 6;
-    std::sort(rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return a[column] > b[column]; });
+    std::sort(rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return a[first + g] > b[first + g]; });
     for (std::size_t i = 0; i < std::min(shown, rows.size()); ++i) {
-      const double order = rows[i][0], harmonic = std::round(order), teeth = rows[i][1] / order;
-      table.rows.push_back({fmt::format("{}", column - first + 1), to_text(order, 5),
-                            fmt::format("{:+.4g}", (order - harmonic) * teeth), to_text(rows[i][2], 5),
-                            to_text(rows[i][column], 4)});
+      const double order = rows[i][0], teeth = rows[i][1] / order, amplitude = rows[i][first + g];
+      table.rows.push_back({gauge.gauge, to_text(order, 5), fmt::format("{:+.4g}", (order - std::round(order)) * teeth),
+                            to_text(rows[i][2], 5), measured(amplitude, relative * amplitude)});
     }
   }
   return Pictures{{std::move(plot)}} + table +
          paragraph(
              phrase("Every planet strains the ring in proportion to its force at that moment. Passing planets make "
-                    "sidebands of carrier orders about the multiples of the mesh frequency. Table: {}.",
+                    "sidebands of carrier orders about the multiples of the mesh frequency. The error is that of the "
+                    "stresses of the ring alone. Table: {}.",
                     code("dynamics/strain_gauge_spectrum.csv")));
 }
 
@@ -79,10 +80,10 @@ Section strain_gauges_section(const RunResult& result) {
                               contact ? to_text(contact->value, 4) : std::string("–")});
     }
     if (!factors.rows.empty()) section.blocks += factors;
+    if (const auto& response = ring.response; response && !response->gauge_spectrum.rows.empty())
+      section.blocks += spectrum_blocks(response->gauge_spectrum, *readings, ring.name);
   }
   if (section.blocks.empty()) return section;
-  for (const auto& [name, response] : responses_of(result))
-    if (!response->gauge_spectrum.rows.empty()) section.blocks += spectrum_blocks(response->gauge_spectrum, name);
   section.blocks += paragraph(
       "Every planet carries the mean mesh force, and its mesh strains the ring as if it were alone: the strains of all "
       "planets are added. The strain is averaged over the length of the gauge. Positive: tension. The error is that of "
