@@ -125,8 +125,7 @@ Table transient_table() {
       .choice("inertia_turned_by", &TransientInput::accelerated_by,
               {{"drive", dynamics::AcceleratedBy::drive}, {"load", dynamics::AcceleratedBy::load}},
               "Torque that turns the inertias faster, beside torque_factor. drive: that of the driving bodies (a motor "
-              "runs "
-              "up). load: that of the driven ones (a load that pulls along, or brakes).")
+              "runs up). load: that of the driven ones (a load that pulls along, or brakes).")
       .fallback("drive", "a motor runs up");
   return transient.done();
 }

@@ -50,7 +50,7 @@ dynamics::PlanetaryStage stage_of() {
   auto stage = dynamics::stages::ring_paper();
   const int planets = 4;
   stage.planet_angles.clear();
-  stage.planet_bearings.clear();
+  stage.planet_errors.clear();
   stage.ring_tooth_offset.clear();
   stage.ring_phase_lag.clear();
   stage.sun_phase_lag.assign(planets, 0);
