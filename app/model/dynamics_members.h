@@ -2,6 +2,7 @@
 
 #include "core/bytes.h"
 #include "dynamics/figures/shaft_results.h"
+#include "dynamics/friction/flank_friction.h"
 #include "dynamics/modes/structural_damping.h"
 #include "dynamics/steady_state/branches.h"
 #include "dynamics/steady_state/steady_response.h"
@@ -27,6 +28,8 @@ struct Members<PeriodicCurve> {
   }
 };
 ANNULUS_MEMBERS(dynamics::ToothError, curve, phase_offset);
+ANNULUS_MEMBERS(dynamics::Sliding, side, distance);
+ANNULUS_MEMBERS(dynamics::FlankFriction, coefficient, sliding);
 
 /// The curves follow from a table, which is an input of its own (table_behind).
 template <>

@@ -92,8 +92,9 @@ class GearSystem {
   [[nodiscard]] virtual std::vector<RunVariant> run_variants() const;
   /// Writes files of the kind's own into OUT that need nothing but the tables.
   virtual void save_inputs(const SystemRun& /*run*/, const RunOptions& /*options*/) const {}
-  /// The results of stiffness tables alone.
-  [[nodiscard]] virtual FigureSet table_figures(const std::vector<const MeshResult*>& tables) const;
+  /// The results of the stiffness tables of a variant of run_variants alone.
+  [[nodiscard]] virtual FigureSet table_figures(std::size_t variant,
+                                                const std::vector<const MeshResult*>& tables) const;
   /// What the coupling of a computed mesh cost; nothing where it was reused.
   [[nodiscard]] virtual std::optional<CostRun> actual_coupling(CostRun /*size*/, const MeshResult& /*mesh*/) const {
     return std::nullopt;

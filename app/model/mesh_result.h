@@ -14,6 +14,7 @@
 #include "core/csv.h"
 #include "core/face_shape.h"
 #include "core/file_set.h"
+#include "core/pair_shares.h"
 #include "core/stiffness_table.h"
 
 namespace annulus::app {
@@ -37,14 +38,6 @@ struct PositionKey {
 struct Peak {
   double value = 0;
   PositionKey at;
-};
-
-/// How the tooth pairs of a mesh share its load over the mesh cycle, at the nominal load: the mean over all ring
-/// positions.
-struct PairShares {
-  int phases = 0;                            ///< 0: not known
-  int first = 0;                             ///< mesh cycles by which the first pair passes the pitch point later
-  std::vector<std::vector<double>> share{};  ///< [phase][pair]; those of each phase add up to 1
 };
 
 /// What is known about one mesh after its solve.
@@ -119,7 +112,7 @@ void save(const MeshResult& result, const std::filesystem::path& folder);
 
 namespace annulus {
 
-ANNULUS_MEMBERS(app::PairShares, phases, first, share);
+ANNULUS_MEMBERS(PairShares, phases, first, share);
 
 /// Without the model, the coupling, the face and how it was found, which its reader knows.
 template <>

@@ -66,7 +66,7 @@ std::vector<VariantFigures> SystemRun::variants() const {
   const auto names = system->run_variants();
   std::vector<VariantFigures> list;
   for (std::size_t variant = 0; variant < names.size(); ++variant) {
-    const auto found = system->table_figures(tables_of(variant));
+    const auto found = system->table_figures(variant, tables_of(variant));
     FigureSet figures;
     for (const auto& spec : system_kind(scene.stage.kind).figures())
       if (const auto* entry = found.find(spec.key)) figures.set(entry->key, entry->figure, entry->parts);
@@ -101,7 +101,7 @@ std::optional<CostRun> SystemRun::actual(const CostStep& step) const {
   return std::nullopt;
 }
 
-FigureSet GearSystem::table_figures(const std::vector<const MeshResult*>& tables) const {
+FigureSet GearSystem::table_figures(std::size_t /*variant*/, const std::vector<const MeshResult*>& tables) const {
   FigureSet figures;
   for (const auto* mesh : tables)
     if (mesh->table.phases() > 0) figures.add(mesh_figures(*mesh));

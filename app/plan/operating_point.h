@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "app/scene/inputs/common_input.h"
 #include "geometry/power_flow.h"
 
@@ -11,11 +13,16 @@ struct OperatingPoint {
   geometry::StageMember driver = geometry::StageMember::sun;
   /// Whether the stage is computed as its mirror image: in that the torque of the sun is counter-clockwise.
   bool mirrored = false;
-  double power = 0;            ///< W, of the driver
+  double power = 0;            ///< W, of the driver; driving_power() of all bodies that drive
   double sun_torque = 0;       ///< N m, magnitude
   double mesh_frequency = 0;   ///< Hz
   double mean_mesh_force = 0;  ///< N, along the line of action, of each of the 2 N meshes
 
+  [[nodiscard]] double driving_power() const {
+    double sum = 0;
+    for (const auto member : geometry::stage_members) sum += std::max(0.0, flow.power(member));
+    return sum;
+  }
   /// rad/s, in the stage as it is computed.
   [[nodiscard]] double computed_speed(geometry::StageMember member) const {
     return mirrored ? -flow.speed[member] : flow.speed[member];

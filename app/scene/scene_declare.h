@@ -42,6 +42,7 @@ inline constexpr Unit key_units[] = {
     {"_h", "h", units::hour},
     {"_per_s", "1/s", 1},
     {"_s", "s", 1},
+    {"_mPas", "mPa s", 1e-3},
 };
 
 template <class T>

@@ -119,6 +119,24 @@ void StaticSolver::iterate(double t, Eigen::VectorXd& q, LumpedSystem::Workspace
 
 Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
   system_.evaluate_excitation(t, w);
+  load_ = system_.load_at(t);
+  Eigen::VectorXd q = equilibrium(t, w);
+  if (!system_.has_friction()) return q;
+  // Each time the change is smaller by a few coefficients of friction.
+  constexpr int tries = 60;
+  constexpr double accuracy = 1e-13;
+  const Eigen::VectorXd without = load_;
+  for (int i = 0; i < tries; ++i) {
+    const Eigen::VectorXd before = load_;
+    load_ = without + system_.friction_force(w);
+    const double change = (load_ - before).lpNorm<Eigen::Infinity>();
+    if (change <= accuracy * load_.lpNorm<Eigen::Infinity>()) return q;
+    q = equilibrium(t, w);
+  }
+  throw SolverError(fmt::format("no static equilibrium with friction in {} steps at t = {:g} s", tries, t));
+}
+
+Eigen::VectorXd StaticSolver::equilibrium(double t, LumpedSystem::Workspace& w) {
   const int meshes = static_cast<int>(vectors_.cols());
   if (system_.has_moving_vectors()) vectors_ = system_.mesh_vectors(t);
   const auto half = [&](int m) { return system_.meshes()[m].half_backlash.value_or(0.0); };
@@ -127,7 +145,6 @@ Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
   // law that carries about its nominal load.
   Eigen::VectorXd q = Eigen::VectorXd::Zero(system_.dofs());
   tangent_.setZero(meshes, meshes);
-  load_ = system_.load_at(t);
   Eigen::VectorXd load = load_;
   anchor_.setZero();
   int anchored = 0;

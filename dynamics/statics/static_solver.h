@@ -10,6 +10,8 @@ namespace annulus::dynamics {
 /// Equilibrium without inertia, damping and rotation: K q + sum_m b_m F_m(t, b_m^T q - e_m(t)) = f(t), where F_m is
 /// the elastic force of a mesh (k g or its law).
 ///
+/// Friction acts with the forces that it leads to.
+///
 /// Rigid motions (at mean mesh stiffness) are fixed by nu^T M q = 0, which needs no force because the constant part of
 /// f does no work on them. What changes in time may: the inertia of the rigid motion then balances it.
 class StaticSolver {
@@ -27,6 +29,8 @@ class StaticSolver {
   [[nodiscard]] Eigen::MatrixXd force_per_error(const LumpedSystem::Workspace& workspace);
 
  private:
+  /// Equilibrium at time t under `load_`, from the contact states in the workspace, which are updated.
+  Eigen::VectorXd equilibrium(double t, LumpedSystem::Workspace& workspace);
   /// Equilibrium in the held contact state: one Newton step for linear meshes, a few steps with a law.
   void iterate(double t, Eigen::VectorXd& q, LumpedSystem::Workspace& workspace);
   /// f - K q - sum b F at q, and the size of its terms (the scale of its rounding). Evaluates the meshes.

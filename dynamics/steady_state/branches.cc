@@ -62,6 +62,7 @@ class Tracer {
     cycles_ = first.problem.period_in_cycles;
     if (first.system.has_moving_vectors())
       throw InputError("mesh vectors that move with the mesh (elastic modes of the ring) have no branches");
+    if (first.system.has_friction()) throw InputError("branches are not found with friction on the flanks");
     stiffness_ = mean_stiffnesses(first.system);
     range_ = options.to - options.from;
     for (const auto* lumped : {&first.problem, &last.problem})

@@ -173,7 +173,7 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   while (2 * samples <= most && samples < wanted) samples *= 2;
   result.samples = samples;
   constexpr double any = 5e-4, per_sample = 2e-6;  // s; of a mesh
-  const bool moving = system.has_moving_vectors();
+  const bool moving = !system.has_fixed_directions();
   if (!moving) result.balance_s = any + per_sample * static_cast<double>(system.meshes().size()) * period * samples;
   const auto integrate = [&](double windows, double compared) {
     result.cycles = (windows + looser) * window;

@@ -154,9 +154,11 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
                     options.tolerance, options.max_iterations));
   require(!system.meshes().empty(),
           fmt::format("a periodic response needs meshes; the system has {} degrees of freedom alone", system.dofs()));
-  if (system.has_moving_vectors()) {
+  if (!system.has_fixed_directions()) {
     PeriodicResponse refused;
-    refused.trouble = "mesh vectors that move with the mesh (elastic modes of the ring) need time integration";
+    refused.trouble = system.has_friction()
+                          ? "friction on the flanks needs time integration"
+                          : "mesh vectors that move with the mesh (elastic modes of the ring) need time integration";
     return refused;
   }
 

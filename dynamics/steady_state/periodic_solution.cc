@@ -132,7 +132,7 @@ double growth_per_cycle(const LumpedSystem& system, double mesh_frequency, const
 /// Does the motion depart from the solution of a harmonic balance? It may do so too slowly for one window to show.
 void examine_stability(const LumpedSystem& system, const SteadyProblem& problem, PeriodicSearch& search) {
   auto& report = *search.report;
-  if (search.loses_contact() || report.method != PeriodicMethod::harmonic_balance || system.has_moving_vectors())
+  if (search.loses_contact() || report.method != PeriodicMethod::harmonic_balance || !system.has_fixed_directions())
     return;
   report.largest_multiplier = growth_per_cycle(system, problem.mesh_frequency, search.windows->fine);
   // A thousandfold growth over a thousand cycles would pass unseen; double zero eigenvalues are 1e-7 from 1.

@@ -238,6 +238,7 @@ int cycles_to_solve(const LumpedSystem& system, const PiecewiseSystem& linear, d
 std::string why_not_piecewise(const LumpedSystem& system, double period) {
   if (system.meshes().empty()) return "there is no mesh";
   if (system.has_moving_vectors()) return "mesh vectors move with the mesh";
+  if (system.has_friction()) return "friction acts on the flanks";
   if (!system.couplings().empty()) return "meshes act on each other through a common body";
   if (!system.laws().empty()) return "bearings have clearance or rolling elements";
   if (!system.faces().empty()) return "meshes are spread over their faces";

@@ -50,6 +50,8 @@ void subtract_coupled(const LumpedSystem& system, const Compiled& c, double t, E
       inverse(c.inverse_b.index[i], m) = c.inverse_b.factor[i];
     for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i)
       inverse.col(m) += w.factor[i] * c.inverse_moving.col(c.moving[i].slot);
+    for (int i = c.meshes[m].first_friction; i < c.meshes[m].last_friction; ++i)
+      inverse.col(m) += (w.force[m] < 0 ? -w.friction[i] : w.friction[i]) * c.friction[i].acceleration;
     damping[m] = w.pace * acting_damping(c.meshes[m], w.contact[m]);
   }
   system.tangent_matrix(w, tangent);
@@ -116,6 +118,16 @@ Eigen::MatrixXd LumpedSystem::damping_with_meshes() const {
 
 bool LumpedSystem::has_moving_vectors() const { return !compiled_->moving.empty(); }
 
+bool LumpedSystem::has_friction() const { return !compiled_->friction.empty(); }
+
+Eigen::VectorXd LumpedSystem::friction_force(const Workspace& w) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(dofs());
+  for (std::size_t m = 0; m < meshes_.size(); ++m)
+    for (int i = compiled_->meshes[m].first_friction; i < compiled_->meshes[m].last_friction; ++i)
+      force -= w.friction[i] * std::abs(w.force[m]) * compiled_->friction[i].along;
+  return force;
+}
+
 LumpedSystem::Workspace LumpedSystem::workspace() const {
   Workspace w;
   for (auto* list :
@@ -135,6 +147,7 @@ LumpedSystem::Workspace LumpedSystem::workspace() const {
   w.pairs.assign(2 * names_.size() + even(meshes_.size()) + even(compiled_->moving_dofs.size()), 0.0);
   w.factor.assign(compiled_->moving.size(), 0.0);
   w.factor_rate = w.factor;
+  w.friction.assign(compiled_->friction.size(), 0.0);
   std::size_t entries = 0;
   for (const auto& coupling : compiled_->couplings) entries += coupling.meshes.size() * coupling.meshes.size();
   w.compliance.assign(entries, 0.0);
@@ -193,7 +206,7 @@ void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixX
       result(n + i, n + c.column[j]) = -c.damping[j];
     }
   }
-  if (has_coupled_meshes() || !c.moving.empty()) {
+  if (has_coupled_meshes() || !has_fixed_directions()) {
     subtract_coupled(*this, c, t, result, w);
     return;
   }
@@ -246,10 +259,11 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
   const int n = dofs();
   const double* q = y;
   const double* v = y + n;
-  // dE/dt = v.f - v.(C v) - v.(K_skew q) - sum c delta'^2 + sum (b'.q - e') F + sum dU/dt at constant g
-  //         - sum F.(D' F)/2
+  // dE/dt = v.f - v.(C v) - v.(K_skew q) - sum c delta'^2 - sum v.g |F| + sum (b'.q - e') F
+  //         + sum dU/dt at constant g - sum F.(D' F)/2
   Power p;
   p.supplied = load_at(t).dot(Eigen::Map<const Eigen::VectorXd>(v, n));
+  if (has_friction()) p.dissipated -= friction_force(w).dot(Eigen::Map<const Eigen::VectorXd>(v, n));
   for (const auto& term : compiled_->power) {
     p.dissipated += v[term.i] * term.damping * v[term.j];
     p.supplied -= v[term.i] * term.circulatory * q[term.j];

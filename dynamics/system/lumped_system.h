@@ -27,6 +27,13 @@ struct MovingShare {
   HarmonicError wave{};
 };
 
+/// Friction on the flanks of a mesh: beside -b F the force -|F| curve(frequency t + phase_offset of the mesh) acts on
+/// the DOFs along a form.
+struct FrictionShare {
+  LinearForm along;
+  PeriodicCurve curve;
+};
+
 /// One gear mesh of any kind. b^T q is the approach of the bodies and delta = b^T q - e(t) the deflection, both along
 /// the line of action. The force on the DOFs is -b F with F = k(t) g(delta) + c delta', where g takes off half the
 /// backlash. c acts while the teeth are in contact (or always). A ForceSurface replaces k(t) g by its law Fs(t, g).
@@ -41,8 +48,9 @@ struct MeshElement {
   bool damping_without_contact = false;
   std::vector<HarmonicError> errors;
   std::vector<ToothError> tooth_errors;
-  std::vector<MovingShare> moving;  ///< at most one per DOF
-  bool shaft = false;               ///< a shaft with its couplings, which has no teeth
+  std::vector<MovingShare> moving;      ///< at most one per DOF
+  std::vector<FrictionShare> friction;  ///< F with its damping
+  bool shaft = false;                   ///< a shaft with its couplings, which has no teeth
 };
 
 /// Meshes that act on each other through a common elastic body: the ring, or a planet. The law of mesh i acts on the
@@ -113,8 +121,9 @@ struct SpringElement {
   double damping = 0;    ///< N s/m
 };
 
-/// What a constant load follows when speed and torque change: nothing, the torque, or the square of the speed.
-enum class LoadCause { none, torque, rotation };
+/// What a constant load follows when speed and torque change: nothing, the torque, or the square of the speed. Losses
+/// are what friction takes from driven bodies (with_balanced_friction); they follow the torque.
+enum class LoadCause { none, torque, rotation, losses };
 
 /// Loads that change in time with one rate: cosine x cos(rate t) + sine x sin(rate t).
 struct HarmonicLoad {
@@ -122,7 +131,8 @@ struct HarmonicLoad {
   Eigen::VectorXd cosine, sine;  ///< N, one per DOF
 };
 
-/// M q'' + (C + G) q' + (K + K_Omega) q + sum_m b_m F_m = f(t), immutable. Built by LumpedSystemBuilder.
+/// M q'' + (C + G) q' + (K + K_Omega) q + sum_m (b_m F_m + g_m |F_m|) = f(t), immutable; g_m contains the friction of
+/// the mesh. Built by LumpedSystemBuilder.
 class LumpedSystem {
  public:
   /// Contact state of a mesh, held between the events that the integrator finds.
@@ -152,6 +162,7 @@ class LumpedSystem {
     /// Per mesh: value of a rectangular wave (1 high, 0 low) held up to the next jump; -1: from the time.
     std::vector<signed char> wave;
     std::vector<double> factor, factor_rate;  ///< of the moving shares of all meshes at `time`
+    std::vector<double> friction;             ///< curves of the friction shares of all meshes at `time`
     std::vector<double> approach;             ///< per mesh, approach b^T q - e of the last evaluation
     std::vector<double> compliance;           ///< D of all couplings at `time`
     std::vector<double> sine, cosine;         ///< of the error rates and mesh frequencies at `time`
@@ -181,6 +192,11 @@ class LumpedSystem {
   [[nodiscard]] Eigen::MatrixXd mesh_vectors(double t = 0) const;            ///< all b, DOFs x meshes
   [[nodiscard]] Eigen::MatrixXd damping_with_meshes() const;                 ///< C + sum c b b^T, b at time 0
   [[nodiscard]] bool has_moving_vectors() const;                             ///< does any b change in time?
+  [[nodiscard]] bool has_friction() const;
+  /// -sum g |F| of the last evaluation, N, one per DOF.
+  [[nodiscard]] Eigen::VectorXd friction_force(const Workspace& workspace) const;
+  /// Do the directions of all mesh forces stay as they are? Solutions without time integration need that.
+  [[nodiscard]] bool has_fixed_directions() const { return !has_moving_vectors() && !has_friction(); }
   [[nodiscard]] const std::vector<MeshCoupling>& couplings() const { return couplings_; }
   [[nodiscard]] const std::vector<LawElement>& laws() const { return laws_; }
   [[nodiscard]] const std::vector<FaceElement>& faces() const { return faces_; }
@@ -236,7 +252,8 @@ class LumpedSystem {
   std::vector<SpringElement> springs_;
   Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
   Eigen::VectorXd load_;
-  std::array<Eigen::VectorXd, 3> load_by_cause_;
+  std::array<Eigen::VectorXd, 4> load_by_cause_;
+  Eigen::MatrixXd neutral_;
   std::vector<HarmonicLoad> harmonic_loads_;
   std::shared_ptr<const Compiled> compiled_;
 };
@@ -245,7 +262,7 @@ class LumpedSystem {
 class LumpedSystemBuilder {
  public:
   /// Adds a system as it is: its DOFs and meshes stand behind those that are there, with `prefix` in front of all
-  /// names.
+  /// names. What balances its friction is left out.
   void add(const LumpedSystem& system, const std::string& prefix = {});
   /// Adds a DOF; its form is {{index, 1}}.
   LinearForm add_dof(const std::string& name);
@@ -283,6 +300,8 @@ class LumpedSystemBuilder {
   void add_law(LawElement law);
   /// Spreads a mesh that was added before over its face; it may be part of a coupling.
   void add_face(FaceElement face);
+  /// Keeps friction from doing work on motions nu (DOFs x motions, nu^T M nu = 1): g becomes (1 - M nu nu^T) g.
+  void keep_friction_from(Eigen::MatrixXd motions);
   /// Throws InputError when a DOF has no mass or a coupling, law, face or moving share does not fit its meshes and
   /// DOFs.
   [[nodiscard]] LumpedSystem build() const;
@@ -313,6 +332,7 @@ class LumpedSystemBuilder {
     double rate, cosine, sine;
   };
   std::vector<HarmonicTerm> harmonic_load_;
+  Eigen::MatrixXd neutral_;
 };
 
 }  // namespace annulus::dynamics

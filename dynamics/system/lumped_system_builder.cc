@@ -38,6 +38,7 @@ void LumpedSystemBuilder::add(const LumpedSystem& system, const std::string& pre
     mesh.name = prefix + mesh.name;
     mesh.b = moved(std::move(mesh.b));
     for (auto& share : mesh.moving) share.dof += dofs;
+    for (auto& share : mesh.friction) share.along = moved(std::move(share.along));
     meshes_.push_back(std::move(mesh));
   }
   for (auto coupling : system.couplings_) {
@@ -165,6 +166,8 @@ void LumpedSystemBuilder::add_law(LawElement law) { laws_.push_back(std::move(la
 
 void LumpedSystemBuilder::add_face(FaceElement face) { faces_.push_back(std::move(face)); }
 
+void LumpedSystemBuilder::keep_friction_from(Eigen::MatrixXd motions) { neutral_ = std::move(motions); }
+
 namespace {
 
 template <class Terms>
@@ -186,6 +189,7 @@ LumpedSystem LumpedSystemBuilder::build() const {
   system.couplings_ = couplings_;
   system.laws_ = laws_;
   system.faces_ = faces_;
+  system.neutral_ = neutral_;
   assemble_matrices(system);
   check_mass(system);
   system.compiled_ = LumpedSystemCompiler(system).compile();

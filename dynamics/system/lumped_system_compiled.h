@@ -30,9 +30,10 @@ struct CompiledMesh {
   double mean = 0, damping = 0, half_backlash = 0;
   double frequency = 0, phase_offset = 0;  ///< the phase shift of the excitation included
   double constant_error = 0;
-  int first_error = 0, last_error = 0;    ///< of Compiled::errors
-  int first_tooth = 0, last_tooth = 0;    ///< of Compiled::tooth_errors
-  int first_moving = 0, last_moving = 0;  ///< of Compiled::moving
+  int first_error = 0, last_error = 0;        ///< of Compiled::errors
+  int first_tooth = 0, last_tooth = 0;        ///< of Compiled::tooth_errors
+  int first_moving = 0, last_moving = 0;      ///< of Compiled::moving
+  int first_friction = 0, last_friction = 0;  ///< of Compiled::friction
   bool coupled = false;
   int face = -1;                             ///< of LumpedSystem::faces whose approach it is
   const CurveBundle* face_course = nullptr;  ///< slope, curvature, gap slope; of Compiled::bundles
@@ -56,6 +57,12 @@ struct CompiledShare {
   SlotTerm wave;
   bool waves = false;
   const CurveBundle* curve = nullptr;  ///< of one curve, or none
+  double frequency = 0, phase_offset = 0;
+};
+
+struct CompiledFriction {
+  Eigen::VectorXd along, acceleration;  ///< force and M^-1 force on the DOFs per |F| and value of the curve
+  const CurveBundle* curve = nullptr;   ///< of one curve
   double frequency = 0, phase_offset = 0;
 };
 
@@ -102,9 +109,10 @@ struct LumpedSystem::Compiled {
   std::vector<SlotTerm> errors;
   std::vector<CompiledToothError> tooth_errors;
   std::vector<CompiledMesh> meshes;
-  std::vector<CompiledShare> moving;  ///< in the order of the meshes
-  std::vector<int> moving_dofs;       ///< each once
-  Eigen::MatrixXd inverse_moving;     ///< columns of M^-1 of moving_dofs
+  std::vector<CompiledShare> moving;       ///< in the order of the meshes
+  std::vector<int> moving_dofs;            ///< each once
+  std::vector<CompiledFriction> friction;  ///< in the order of the meshes
+  Eigen::MatrixXd inverse_moving;          ///< columns of M^-1 of moving_dofs
   std::vector<CompiledCoupling> couplings;
   std::vector<std::unique_ptr<const CurveBundle>> bundles;  ///< equal ones once
   std::vector<std::shared_ptr<const ForceSurface>> surfaces;

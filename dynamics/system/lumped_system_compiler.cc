@@ -60,6 +60,7 @@ std::shared_ptr<const LumpedSystem::Compiled> LumpedSystemCompiler::compile() {
   compiled_->b.start = compiled_->inverse_b.start = {0};
   for (const auto& mesh : system_.meshes()) compile_mesh(mesh);
   compile_moving_shares();
+  compile_friction();
   for (const auto& coupling : system_.couplings()) compile_coupling(coupling);
   for (const auto& element : system_.laws()) compile_law(element);
   for (std::size_t i = 0; i < system_.faces().size(); ++i) compile_face(system_.faces()[i], static_cast<int>(i));
@@ -193,6 +194,26 @@ void LumpedSystemCompiler::compile_moving_shares() {
   c.inverse_moving.resize(dofs_, static_cast<Eigen::Index>(c.moving_dofs.size()));
   for (int k = 0; k < c.inverse_moving.cols(); ++k)
     c.inverse_moving.col(k) = mass_.solve(Eigen::VectorXd::Unit(dofs_, c.moving_dofs[k]));
+}
+
+void LumpedSystemCompiler::compile_friction() {
+  auto& c = *compiled_;
+  const Eigen::MatrixXd& neutral = system_.neutral_;
+  for (std::size_t m = 0; m < system_.meshes().size(); ++m) {
+    const MeshElement& mesh = system_.meshes()[m];
+    c.meshes[m].first_friction = static_cast<int>(c.friction.size());
+    for (const auto& share : mesh.friction) {
+      auto& compiled = c.friction.emplace_back();
+      compiled.along = Eigen::VectorXd::Zero(dofs_);
+      for (const auto& [i, factor] : share.along) compiled.along[i] += factor;
+      if (neutral.size() > 0) compiled.along -= system_.mass() * neutral * (neutral.transpose() * compiled.along);
+      compiled.acceleration = mass_.solve(compiled.along);
+      compiled.curve = shared_bundle(c.bundles, CurveBundle({&share.curve}));
+      compiled.frequency = mesh.frequency;
+      compiled.phase_offset = mesh.phase_offset;
+    }
+    c.meshes[m].last_friction = static_cast<int>(c.friction.size());
+  }
 }
 
 void LumpedSystemCompiler::check_uncoupled(const std::string& what, int mesh) const {

@@ -25,6 +25,7 @@ class LumpedSystemCompiler {
   void compile_excitation(const MeshElement& mesh, CompiledMesh& compiled);
   void compile_errors(const MeshElement& mesh, CompiledMesh& compiled);
   void compile_moving_shares();
+  void compile_friction();
   void compile_coupling(const MeshCoupling& coupling);
   void check_coupling(const MeshCoupling& coupling) const;
   void compile_law(const LawElement& element);

@@ -88,6 +88,11 @@ void LumpedSystem::evaluate_excitation(double t, Workspace& w) const {
     w.factor[i] = factor;
     w.factor_rate[i] = rate;
   }
+  for (std::size_t i = 0; i < c.friction.size(); ++i) {
+    const CompiledFriction& share = c.friction[i];
+    double slope = 0;
+    share.curve->evaluate(share.frequency * t + share.phase_offset, &w.friction[i], &slope);
+  }
   for (const auto& coupling : c.couplings) evaluate_compliance(coupling, t, w);
   w.time = t;
   w.excitation_valid = true;
@@ -226,6 +231,9 @@ void LumpedSystem::rhs(double t, const double* y, double* dy, Workspace& w) cons
     dy[i] = y[n + i];
     dy[n + i] = a[0] + a[1];
   }
+  for (std::size_t m = 0; m < meshes; ++m)
+    for (int k = c.meshes[m].first_friction; k < c.meshes[m].last_friction; ++k)
+      Eigen::Map<Eigen::VectorXd>(dy + n, n) -= w.friction[k] * std::abs(w.force[m]) * c.friction[k].acceleration;
 }
 
 }  // namespace annulus::dynamics

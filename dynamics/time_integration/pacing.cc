@@ -63,7 +63,7 @@ Pacing::Pacing(const LumpedSystem& system, Course course, const std::string& dof
                     "the other side turn them (inertia_turned_by)",
                     by == AcceleratedBy::drive ? "drives" : "loads"));
   if (changes) of_acceleration_ = mass.solve(rotation_.dot(system.mass() * rotation_) / power * bearing) - rotation_;
-  of_torque_ = mass.solve(torque);
+  of_torque_ = mass.solve(torque + system.load(LoadCause::losses));
   of_rotation_ = mass.solve(system.load(LoadCause::rotation));
   const auto& k = system.rotating_stiffness();
   damping_ = over_mass(mass, system.damping());

@@ -178,7 +178,7 @@ BOOST_AUTO_TEST_CASE(the_mirror_image_driven_the_other_way_does_the_same) {
 
 BOOST_AUTO_TEST_CASE(errors_are_gaps_weighed_by_load_shares) {
   // Two pairs at phase 0, one at phase 0.5.
-  app::PairShares shares{2, 0, {{0.7, 0.3}, {1, 0}}};
+  PairShares shares{2, 0, {{0.7, 0.3}, {1, 0}}};
   const auto curve = app::error_of_gaps({0, 0, 5e-6, 0}, shares);
   BOOST_TEST(curve.period() == 4);
   const double expected[] = {0, 0, 0.3 * 5e-6, 0, 0.7 * 5e-6, 5e-6, 0, 0};

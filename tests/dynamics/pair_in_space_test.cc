@@ -46,6 +46,7 @@ SpatialPair spatial(const HelicalPair& pair, std::vector<StageBearing> bearings)
 constexpr double tilting_pinion = 3, tilting_wheel = 40;
 
 HelicalPair lumped(HelicalPair pair, const SpatialPair& s, BearingLaws laws = BearingLaws::tangents) {
+  pair.working_angle = s.working_angle;
   pair.space = pair_about_equilibrium(s, tilting_pinion, tilting_wheel);
   pair.space->laws = laws;
   return pair;

@@ -17,14 +17,13 @@ template <>
 struct Members<dynamics::PairSpace> {
   template <class Space>
   static auto of(Space& s) {
-    return std::tie(static_cast<dynamics::SpaceSupports&>(s), s.working_angle, s.working_radius_pinion,
-                    s.working_radius_wheel, s.tilt_inertia_pinion, s.tilt_inertia_wheel, s.mass_place_pinion,
-                    s.mass_place_wheel, s.face);
+    return std::tie(static_cast<dynamics::SpaceSupports&>(s), s.working_radius_pinion, s.working_radius_wheel,
+                    s.tilt_inertia_pinion, s.tilt_inertia_wheel, s.mass_place_pinion, s.mass_place_wheel, s.face);
   }
 };
-ANNULUS_MEMBERS(dynamics::HelicalPair, pinion, wheel, base_helix_angle, mesh, mesh_error, half_backlash, mesh_damping,
-                bearing_damping, structural_damping, damping_without_contact, pinion_speed, pinion_torque, space,
-                rotors);
+ANNULUS_MEMBERS(dynamics::HelicalPair, pinion, wheel, base_helix_angle, working_angle, mesh, mesh_error, half_backlash,
+                mesh_damping, bearing_damping, structural_damping, damping_without_contact, friction, pinion_speed,
+                pinion_torque, space, rotors);
 
 }  // namespace annulus
 
@@ -72,8 +71,9 @@ std::string LumpedPair::id(const dynamics::SimulationOptions& options) const {
 }
 
 LumpedPair lumped_pair(const Scene& scene, const PairGeometry& geometry, const MeshResult& mesh, double mesh_error) {
-  return {scene, geometry, stiffness_alone(mesh), mesh_error,
-          make_pair(scene, geometry, pair_excitation(scene, geometry, mesh.table), mesh_error, mesh.face)};
+  return {
+      scene, geometry, stiffness_alone(mesh), mesh_error,
+      make_pair(scene, geometry, pair_excitation(scene, geometry, mesh.table), mesh_error, {mesh.face, mesh.shares})};
 }
 
 std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {

@@ -66,8 +66,13 @@ PairGeometry make_pair_geometry(const Scene& scene) {
           .transverse_force = std::abs(scene.stage.pinion_torque) / pinion.base_radius()};
 }
 
+RollingMesh rolling_mesh(const Scene& scene, const PairGeometry& geometry) {
+  return {&geometry.gears, scene.pinion.teeth * scene.stage.pinion_speed / (2 * std::numbers::pi),
+          geometry.transverse_force};
+}
+
 dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry, const dynamics::MeshExcitation& mesh,
-                                double mesh_error, const std::shared_ptr<const FaceShape>& face) {
+                                double mesh_error, const PairFlanks& flanks) {
   if (!scene.dynamics) throw InternalError("internal error: dynamics of a scene without [dynamics]");
   const auto& d = *scene.dynamics;
   const auto& e = scene.errors;
@@ -80,6 +85,7 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
       *bearing = rigid_if_stiff(*bearing, stiffness, scene.accuracy);
   // The other hand turns only the sign of the axial motions.
   pair.base_helix_angle = std::copysign(geometry.base_helix_angle, scene.stage.helix_angle);
+  pair.working_angle = geometry.gears.working_pressure_angle();
   pair.mesh = mesh;
   pair.mesh_error = {mesh_error, e.mesh_error_phase};
   pair.half_backlash = scene.pinion_wheel.half_backlash.value_or(d.half_backlash);
@@ -89,10 +95,11 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
   pair.wheel.damping_ratio = scene.wheel.damping_ratio;
   pair.structural_damping = structural_damping(d);
   pair.damping_without_contact = d.mesh_damping == MeshDamping::always;
+  pair.friction = flank_friction(scene, rolling_mesh(scene, geometry), flanks.shares, MeshForces::normal);
   pair.pinion_speed = scene.stage.pinion_speed;
   pair.pinion_torque = scene.stage.pinion_torque;
   pair.rotors = rotors_of(scene);
-  if (pair_in_space(scene)) put_in_space(pair, scene, geometry, face);
+  if (pair_in_space(scene)) put_in_space(pair, scene, geometry, flanks.face);
   return pair;
 }
 

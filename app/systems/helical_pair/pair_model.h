@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/scene/scene.h"
+#include "app/systems/shared/friction.h"
 #include "core/face_shape.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "dynamics/systems/helical_pair/helical_pair.h"
@@ -26,6 +27,13 @@ struct PairGeometry {
   [[nodiscard]] double to_normal() const;
 };
 
+/// What is known of the flanks besides the stiffness.
+struct PairFlanks {
+  std::shared_ptr<const FaceShape> face{};  ///< of solid gears in space, or null
+  PairShares shares{};
+};
+[[nodiscard]] RollingMesh rolling_mesh(const Scene& scene, const PairGeometry& geometry);
+
 /// Throws GeometryError, naming the gear, when the gears cannot exist or mesh.
 [[nodiscard]] PairGeometry make_pair_geometry(const Scene& scene);
 
@@ -34,11 +42,11 @@ struct PairGeometry {
 /// kg m^2: the given inertia, else that of a solid disc of the reference radius; nothing without a mass.
 [[nodiscard]] std::optional<double> pair_inertia(const Scene& scene, const PairGearInput& gear);
 
-/// The lumped model. `mesh_error`: amplitude at mesh frequency, m. `face`: of solid gears in space, or null. Throws
+/// The lumped model. `mesh_error`: amplitude at mesh frequency, m. Throws
 /// InternalError without [dynamics].
 [[nodiscard]] dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry,
                                               const dynamics::MeshExcitation& mesh, double mesh_error,
-                                              const std::shared_ptr<const FaceShape>& face = nullptr);
+                                              const PairFlanks& flanks = {});
 [[nodiscard]] dynamics::SimulationOptions pair_simulation(const Scene& scene);
 
 }  // namespace annulus::app

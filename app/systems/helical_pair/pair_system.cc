@@ -14,6 +14,7 @@
 #include "app/systems/helical_pair/pair_scene.h"
 #include "app/systems/helical_pair/pair_space.h"
 #include "app/systems/shared/faces.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/mesh_names.h"
 
 namespace annulus::app {
@@ -71,12 +72,18 @@ class PairSystem final : public GearSystem {
     save_pair_errors(pair_errors(scene()), options.out / "errors");
   }
 
-  [[nodiscard]] FigureSet table_figures(const std::vector<const MeshResult*>& tables) const override {
+  [[nodiscard]] FigureSet table_figures(std::size_t /*variant*/,
+                                        const std::vector<const MeshResult*>& tables) const override {
     const PairMesh mesh(*tables.front());
     FigureSet figures;
     for (const auto& s : mean_stiffnesses(scene(), make_pair_geometry(scene()), mesh))
       if (s.taken) figures.set("mean_stiffness_N_per_m", {s.value, std::abs(s.value) * s.error_relative});
     if (mesh.computed) figures.add(mesh_figures(*mesh.computed));
+    if (!has_friction(scene())) return figures;
+    const auto geometry = make_pair_geometry(scene());
+    const double torque = std::abs(scene().stage.pinion_torque);
+    add_losses(figures, {mesh_losses(scene(), rolling_mesh(scene(), geometry), *tables.front(), 1)},
+               torque * scene().stage.pinion_speed);
     return figures;
   }
 
@@ -105,6 +112,7 @@ class PairSystem final : public GearSystem {
     warn_of_measured_flanks(list, geometry.gears, {"pinion", "wheel"}, "");
     warn_of_undercut(list, geometry.pinion(), "pinion");
     warn_of_undercut(list, geometry.wheel(), "wheel");
+    if (const auto mesh = meshes().front(); !mesh.computed()) warn_of_shares(list, scene(), {"mesh"});
     if (scene().dynamics) {
       auto space = pair_space_warnings(scene());
       list.insert(list.end(), space.begin(), space.end());
@@ -164,6 +172,8 @@ const std::vector<FigureSpec>& all_pair_figures() {
     specs.insert(specs.end(), mesh.begin(), mesh.end());
     const auto& model = dynamics::pair_figures();
     specs.insert(specs.end(), model.begin(), model.end());
+    const auto losses = friction_figure_specs({{pinion_wheel, "mesh"}});
+    specs.insert(specs.end(), losses.begin(), losses.end());
     const auto& courses = dynamics::transient_figures();
     specs.insert(specs.end(), courses.begin(), courses.end());
     return specs;

@@ -3,6 +3,7 @@
 
 #include "app/scene/gear_tables.h"
 #include "app/systems/helical_pair/pair_scene.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/rotors.h"
 #include "app/systems/shared/space_tables.h"
 
@@ -179,6 +180,7 @@ std::vector<Table> pair_tables() {
                                pair_gear_table("pinion", "The driving gear of a pair.", &Scene::pinion),
                                pair_gear_table("wheel", "The driven gear of a pair.", &Scene::wheel),
                                pair_mesh_table(),
+                               friction_table(),
                                rotor_table(),
                                pair_errors_table(),
                                manufacturing_error_table(),

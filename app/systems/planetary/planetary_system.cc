@@ -24,6 +24,7 @@
 #include "app/systems/planetary/statics.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/faces.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/mesh_names.h"
 #include "app/systems/shared/rotors.h"
 #include "core/errors.h"
@@ -104,6 +105,19 @@ class PlanetarySystem final : public GearSystem {
           {{"annulus_version", version()}, {"inputs_id", mesh.model.id()}, {"model", mesh.model.fidelity}});
       csv.write(file);
     }
+  }
+
+  [[nodiscard]] FigureSet table_figures(std::size_t ring, const std::vector<const MeshResult*>& tables) const override {
+    auto figures = GearSystem::table_figures(ring, tables);
+    if (!has_friction(scene())) return figures;
+    const auto& set = geometry().rings.at(ring).set;
+    const auto& point = geometry().operating_point;
+    const auto losses = [&](const MeshResult& mesh, const geometry::GearPair& pair) {
+      return mesh_losses(scene(), {&pair, point.mesh_frequency, point.mean_mesh_force}, mesh, scene().stage.planets);
+    };
+    add_losses(figures, {losses(*tables.front(), set.sun_mesh()), losses(*tables.back(), set.ring_mesh())},
+               point.driving_power());
+    return figures;
   }
 
   [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t ring,
@@ -211,6 +225,8 @@ const std::vector<FigureSpec>& all_planetary_figures() {
     auto specs = mesh_figure_specs(ring_planet, "ring mesh", "ring_stiffness", {"planet", "ring"});
     const auto sun = mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness", {"planet", "sun"});
     specs.insert(specs.end(), sun.begin(), sun.end());
+    const auto losses = friction_figure_specs({{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}});
+    specs.insert(specs.end(), losses.begin(), losses.end());
     const auto& model = dynamics::planetary_figures();
     specs.insert(specs.end(), model.begin(), model.end());
     const auto& assemblies = tolerance_figures();

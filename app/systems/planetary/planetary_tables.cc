@@ -7,6 +7,7 @@
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/planetary/structure_tables.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/rotors.h"
 #include "geometry/flank_tolerances.h"
 
@@ -361,6 +362,7 @@ std::vector<Table> planetary_tables() {
       mesh("mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.", &Scene::sun_planet),
       mesh("mesh.ring_planet", "Stiffness of the ring mesh, prescribed instead of computed.", &Scene::ring_planet),
       rim_coupling_key(),
+      friction_table(),
       rotor_table(),
       tolerances_table(),
       strain_gauge_table(),

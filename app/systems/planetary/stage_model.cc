@@ -10,6 +10,7 @@
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_members.h"
 #include "app/systems/planetary/stage_supports.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/rotors.h"
 #include "core/errors.h"
 
@@ -107,6 +108,14 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   stage.carrier.damping_ratio = scene.supports.carrier_damping;
   stage.planet.damping_ratio = scene.supports.planet_damping;
   stage.structural_damping = structural_damping(*scene.dynamics);
+  const auto& set = geometry.rings.at(ring).set;
+  const auto friction = [&](const geometry::GearPair& pair, const MeshResult& mesh) {
+    const auto& point = geometry.operating_point;
+    return flank_friction(scene, {&pair, point.mesh_frequency, point.mean_mesh_force}, mesh.shares,
+                          MeshForces::transverse);
+  };
+  stage.sun_friction = friction(set.sun_mesh(), sun_mesh);
+  stage.ring_friction = friction(set.ring_mesh(), ring_mesh);
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
   stage.rotors = rotors_of(scene);
   if (moves_in_space(scene)) put_in_space(stage, scene, geometry, ring, sun_mesh, ring_mesh);

@@ -11,6 +11,7 @@
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/strain_gauges.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/space_input.h"
 #include "core/units.h"
 
@@ -88,6 +89,10 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
     list.insert(list.end(), in_space.begin(), in_space.end());
   }
   warn_of_gauges(list, scene);
+  std::vector<std::string> prescribed;
+  if (scene.sun_planet.stiffness != StiffnessShape::computed) prescribed.emplace_back("sun mesh");
+  if (scene.ring_planet.stiffness != StiffnessShape::computed) prescribed.emplace_back("ring mesh");
+  warn_of_shares(list, scene, prescribed);
   const auto& e = scene.errors;
   if (scene.tolerances && !(e.sun_pitch.empty() && e.planet_pitch.empty() && e.ring_pitch.empty()))
     list.push_back({"pitch_deviations", Severity::warning,

@@ -87,7 +87,10 @@ class TrainSystem final : public GearSystem {
                        [&](const auto& part) { return part.system->offers(direction); });
   }
 
-  [[nodiscard]] FigureSet table_figures(const std::vector<const MeshResult*>& /*tables*/) const override { return {}; }
+  [[nodiscard]] FigureSet table_figures(std::size_t /*variant*/,
+                                        const std::vector<const MeshResult*>& /*tables*/) const override {
+    return {};
+  }
 
   [[nodiscard]] std::vector<Warning> scene_warnings() const override {
     std::vector<Warning> list;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "dynamics/friction/balanced_friction.h"
 #include "dynamics/spatial/bearing_laws.h"
 #include "dynamics/system/input_checks.h"
 #include "dynamics/system/periods.h"
@@ -59,6 +60,7 @@ PairCoordinates add_gear(LumpedSystemBuilder& builder, const PairGear& gear, dou
 struct PairInSpace {
   PairCoordinates pinion, wheel;
   LinearForm approach, tilt;  ///< of the mesh, normal, beside that of the plane
+  LinearForm across{};        ///< PitchPointMotion::across, beside that of the rotations
 };
 
 /// Pinion, wheel.
@@ -82,11 +84,15 @@ PairInSpace add_in_space(LumpedSystemBuilder& builder, const HelicalPair& pair) 
   const auto forms = add_bodies(builder, pair);
   const auto &p = forms[0], &w = forms[1];
   const double c = std::cos(pair.base_helix_angle), s = std::sin(pair.base_helix_angle);
-  const double cos_a = std::cos(space.working_angle), sin_a = std::sin(space.working_angle);
+  const double cos_a = std::cos(pair.working_angle), sin_a = std::sin(pair.working_angle);
   // About the common tangent of the pitch circles.
   const auto about_tangent = [&](const BodyForms& f) { return (-sin_a) * f.tilt_x + cos_a * f.tilt_y; };
   const LinearForm slope = (-c) * (p.tilt_x + (-1.0) * w.tilt_x);
   PairInSpace result{{p.y, p.z, p.u}, {w.y, w.z, w.u}, space.face.middle * slope, (space.face.width / 2) * slope};
+  const auto x_at_face = [&](const BodyForms& body) {
+    return at_place(against(body, seat_in_housing()), space.face.middle).front();
+  };
+  result.across = x_at_face(w) + (-1.0) * x_at_face(p);
   if (s != 0)
     result.approach = result.approach + s * (space.working_radius_pinion * about_tangent(p) +
                                              space.working_radius_wheel * about_tangent(w));
@@ -171,6 +177,7 @@ void HelicalPair::check() const {
   check_not_negative(pinion_speed, "pinion speed");
   check_rotors(rotors, shaft_ends());
   check_torque(*this);
+  if (friction) check_not_negative(friction->coefficient, "coefficient of friction");
   if (!space) return;
   space->check_supports();
   space->face.check("mesh");
@@ -226,6 +233,12 @@ LumpedSystem assemble(const HelicalPair& pair) {
   add_error(pair.mesh_error, 2 * std::numbers::pi * pair.mesh_frequency());
   add_error(pair.pinion.error, pair.pinion_speed);
   add_error(pair.wheel.error, pair.wheel_speed());
+  if (pair.friction)
+    mesh.friction =
+        friction_shares(*pair.friction,
+                        {.across = bodies.across + std::tan(pair.working_angle) * (pinion.u + wheel.u),
+                         .rotation = (1 / pair.pinion.radius) * pinion.u + (-1 / pair.wheel.radius) * wheel.u},
+                        {.contact = 1, .rotation = pair.pinion_speed > 0 ? 1 : 0});
   std::optional<MeshElement> tilt;
   if (pair.space) tilt = spread_over_face(builder, mesh, pair.space->face, bodies.tilt, 0, 1);
   builder.add_mesh(std::move(mesh));
@@ -239,7 +252,9 @@ LumpedSystem assemble(const HelicalPair& pair) {
   const auto ends = pair.shaft_ends();
   builder.add_load(pinion.u, ends.front().load, LoadCause::torque);
   builder.add_load(wheel.u, ends.back().load, LoadCause::torque);
-  return with_structural_damping(with_rotors(builder.build(), pair.rotors, ends), pair.structural_damping);
+  return with_balanced_friction(
+      with_structural_damping(with_rotors(builder.build(), pair.rotors, ends), pair.structural_damping), pair.rotors,
+      ends);
 }
 
 std::vector<std::vector<LinearForm>> bearing_coordinates(const HelicalPair& pair) {

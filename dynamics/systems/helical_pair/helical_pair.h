@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/friction/flank_friction.h"
 #include "dynamics/modes/modes.h"
 #include "dynamics/modes/structural_damping.h"
 #include "dynamics/spatial/space_bodies.h"
@@ -24,7 +25,6 @@ struct ErrorWave {
 /// with the common tangent. `bearings` are those of pinion and wheel on the housing, instead of the stiffnesses of
 /// PairGear.
 struct PairSpace : SpaceSupports {
-  double working_angle = 0;                                    ///< rad, transverse
   double working_radius_pinion = 0, working_radius_wheel = 0;  ///< m
   double tilt_inertia_pinion = 0, tilt_inertia_wheel = 0;      ///< kg m^2, about axes across the gears' own
   double mass_place_pinion = 0, mass_place_wheel = 0;          ///< m, z of the centres of mass
@@ -62,6 +62,7 @@ struct PairGear {
 struct HelicalPair {
   PairGear pinion, wheel;
   double base_helix_angle = 0;  ///< rad; negative: the other hand
+  double working_angle = 0;     ///< rad, transverse; friction and pairs in space need it
   MeshExcitation mesh;          ///< N/m along the normal
   ErrorWave mesh_error;         ///< at mesh frequency
   /// Half the normal backlash, m. Absent: the teeth never lose contact (a linear mesh, which also pulls).
@@ -71,7 +72,8 @@ struct HelicalPair {
   double mesh_damping_ratio = 0;
   double bearing_damping_ratio = 0;  ///< zeta in c = 2 zeta sqrt(k m)
   StructuralDamping structural_damping{};
-  bool damping_without_contact = false;  ///< true: as printed, meshes without contact push and pull
+  bool damping_without_contact = false;     ///< true: as printed, meshes without contact push and pull
+  std::optional<FlankFriction> friction{};  ///< on the flanks; absent: none
 
   double pinion_speed = 0;  ///< rad/s, >= 0
   /// N m; the torque of the wheel is this times the ratio. Negative: the back flanks, or a mesh that pulls.
@@ -111,8 +113,9 @@ struct Iso6336Mesh {
 [[nodiscard]] double iso_6336_mesh_stiffness(const Iso6336Mesh& mesh);
 
 /// The pair as elements: DOFs pinion_y, pinion_z, pinion_u, wheel_y, wheel_z, wheel_u (rigid ones left out) and one
-/// mesh "mesh"; then those of the rotors (with_rotors). In space those of add_space_bodies(), and a mesh "mesh_tilt" of
-/// what the mesh approaches at the end of the face by more than in its middle. Throws what `check` throws.
+/// mesh "mesh" with its friction (with_balanced_friction); then those of the rotors (with_rotors). In space those of
+/// add_space_bodies(), and a mesh "mesh_tilt" of what the mesh approaches at the end of the face by more than in its
+/// middle. Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const HelicalPair& pair);
 
 /// Coordinates of the bearings of a pair in space, in their places.

@@ -134,7 +134,6 @@ PairSpace pair_about_equilibrium(const SpatialPair& pair, double tilt_inertia_pi
   const auto at = made.mechanism.solve();
   const auto axes = along_line_of_action(pair);
   PairSpace space;
-  space.working_angle = pair.working_angle;
   space.working_radius_pinion = pair.working_radius_pinion;
   space.working_radius_wheel = pair.working_radius_wheel;
   space.tilt_inertia_pinion = tilt_inertia_pinion;

@@ -3,7 +3,9 @@
 #include <numbers>
 #include <string>
 #include <tuple>
+#include <utility>
 
+#include "dynamics/friction/balanced_friction.h"
 #include "dynamics/spatial/bearing_laws.h"
 #include "dynamics/system/lumped_system.h"
 #include "dynamics/system/support.h"
@@ -276,6 +278,39 @@ void add_laws(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const S
   }
 }
 
+/// x and y of a body in the middle of a face.
+std::array<LinearForm, 2> at_face(const BodyForms& body, const std::optional<StageSpace>& space,
+                                  SpreadFace StageSpace::*face) {
+  if (!space) return {body.x, body.y};
+  auto coordinates = at_place(against(body, seat_in_housing()), ((*space).*face).middle);
+  return {std::move(coordinates[0]), std::move(coordinates[1])};
+}
+
+/// n = (-sin psi, cos psi) with psi = phi - a_s of sun meshes, where the contact moves along n, and psi = phi + a_r of
+/// ring meshes, where it moves the other way.
+std::vector<FrictionShare> mesh_friction(const PlanetaryStage& stage, const StageForms& bodies, MeshWith with, int n) {
+  const bool of_sun = with == MeshWith::sun;
+  const auto& friction = of_sun ? stage.sun_friction : stage.ring_friction;
+  if (!friction) return {};
+  const auto& wheel = of_sun ? bodies.sun : bodies.ring;
+  const auto& planet = bodies.planets[static_cast<std::size_t>(n)];
+  const auto face = of_sun ? &StageSpace::sun_face : &StageSpace::ring_face;
+  const int sign = of_sun ? 1 : -1;
+  const double alpha = of_sun ? stage.sun_working_angle : stage.ring_working_angle;
+  const double psi = stage.planet_angles[static_cast<std::size_t>(n)] - sign * alpha;
+  PitchPointMotion motion;
+  if (of_sun || !ring_in_housing(stage)) {
+    const auto [x, y] = at_face(wheel, stage.space, face);
+    motion.across = (-std::cos(psi)) * x + (-std::sin(psi)) * y;
+  }
+  const auto [radial, tangential] = at_face(planet, stage.space, face);
+  motion.across = motion.across + std::cos(alpha) * radial + (-sign * std::sin(alpha)) * tangential +
+                  (sign * std::tan(alpha)) * (wheel.u + sign * planet.u);
+  motion.rotation = (1 / (of_sun ? stage.sun : stage.ring).radius) * wheel.u + (-1 / stage.planet.radius) * planet.u;
+  const double rate = stage.mesh_rate();
+  return friction_shares(*friction, motion, {.contact = sign, .rotation = rate > 0 ? 1 : rate < 0 ? -1 : 0});
+}
+
 }  // namespace
 
 LumpedSystem assemble(const PlanetaryStage& stage) {
@@ -325,6 +360,8 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
     ring_meshes.push_back(mesh("ring_planet" + number, ring_b, stage.ring_mesh, stage.ring, stage.ring_half_backlash,
                                ring_mesh_phase(stage, n), ring_mesh_errors(stage, n), stage.ring_tooth_errors, n));
     if (housing) ring_meshes.back().moving = ring_shares(stage, ring, ring_modes, phi + ar);
+    meshes.back().friction = mesh_friction(stage, bodies, MeshWith::sun, n);
+    ring_meshes.back().friction = mesh_friction(stage, bodies, MeshWith::ring, n);
   }
   for (auto& element : ring_meshes) meshes.push_back(std::move(element));
   if (stage.space) spread_meshes(meshes, builder, stage, bodies);
@@ -339,7 +376,9 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
     const auto end = std::find_if(ends.begin(), ends.end(), [&](const auto& e) { return e.name == name; });
     if (end->load != 0) builder.add_load(*form, end->load, LoadCause::torque);
   }
-  return with_structural_damping(with_rotors(builder.build(), stage.rotors, ends), stage.structural_damping);
+  return with_balanced_friction(
+      with_structural_damping(with_rotors(builder.build(), stage.rotors, ends), stage.structural_damping), stage.rotors,
+      ends);
 }
 
 }  // namespace annulus::dynamics

@@ -259,6 +259,8 @@ void PlanetaryStage::check() const {
     if (!(std::abs(angle) < std::numbers::pi / 2))
       throw InputError(fmt::format("working pressure angle {} rad must lie below 90 degrees", angle));
   dynamics::check(sun_mesh, "sun-planet mesh");
+  for (const auto* friction : {&sun_friction, &ring_friction})
+    check_not_negative(*friction ? (*friction)->coefficient : 0, "coefficient of friction");
   dynamics::check(ring_mesh, "ring-planet mesh");
   if (ring_coupling) check_coupling(*ring_coupling, *this);
   check_planet_coupling(*this);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/ring_coupling.h"
+#include "dynamics/friction/flank_friction.h"
 #include "dynamics/modes/structural_damping.h"
 #include "dynamics/system/drive_line.h"
 #include "dynamics/system/mesh_excitation.h"
@@ -125,6 +126,8 @@ struct PlanetaryStage {
   /// false: damping acts only in contact. true: always, as printed in [HuFangXuShen2021, eq. (30)]; meshes without
   /// contact then pull.
   bool damping_without_contact = false;
+  /// Friction on the flanks; absent: none. It moves the ring across the line of action only without modes of the ring.
+  std::optional<FlankFriction> sun_friction{}, ring_friction{};
 
   /// Omega_c and Omega_r, rad/s, counter-clockwise; the sun's follows (geometry/power_flow.h). Where the carrier turns
   /// clockwise against the ring, the meshes run through their cycles backwards: the carrier then drives, or the ring.
@@ -200,10 +203,10 @@ void set_kinematics(PlanetaryStage& stage, const geometry::PlanetarySet& set);
 
 /// The stage as elements. DOFs in the order sun, ring, carrier, planet1 ... planetN, each with x, y, u unless rigid,
 /// named sun_x, sun_y, sun_u, ..., planet1_x, ..., then ring_mode1, ... Meshes: sun_planet1 ... sun_planetN,
-/// ring_planet1 ...; then planet1_bearing_along, planet1_bearing_across (the mean pin force) ... of bearings with play.
-/// Their planets are loaded by their centrifugal forces. In space: the DOFs of add_bodies_in_space(), and behind all
-/// meshes sun_planet1_tilt ... ring_planet1_tilt ..., the tilts of their faces. Last those of the rotors (with_rotors).
-/// Throws what `check` throws.
+/// ring_planet1 ..., with their friction (with_balanced_friction); then planet1_bearing_along, planet1_bearing_across
+/// (the mean pin force) ... of bearings with play. Their planets are loaded by their centrifugal forces. In space: the
+/// DOFs of add_bodies_in_space(), and behind all meshes sun_planet1_tilt ... ring_planet1_tilt ..., the tilts of their
+/// faces. Last those of the rotors (with_rotors). Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const PlanetaryStage& stage);
 
 }  // namespace annulus::dynamics

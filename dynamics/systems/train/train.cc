@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "core/whole_ratio.h"
 #include "dynamics/figures/common_figures.h"
+#include "dynamics/friction/balanced_friction.h"
 #include "dynamics/system/input_checks.h"
 #include "dynamics/system/periods.h"
 #include "dynamics/system/support.h"
@@ -175,7 +176,8 @@ LumpedSystem assemble(const Train& train) {
     dofs += part.lumped.system.dofs();
   }
   for (const auto& shaft : train.shafts) add_shaft(builder, first_dof, train, shaft);
-  return with_rotors(builder.build(), train.rotors, train.shaft_ends());
+  const auto ends = train.shaft_ends();
+  return with_balanced_friction(with_rotors(builder.build(), train.rotors, ends), train.rotors, ends);
 }
 
 SteadyProblem steady_problem(const Train& train) {

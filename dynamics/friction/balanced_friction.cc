@@ -1,0 +1,107 @@
+#include "dynamics/friction/balanced_friction.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <utility>
+
+#include "core/errors.h"
+#include "dynamics/modes/modes.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// Where the torque of a body acts, and the power that it brings.
+struct TorquePlace {
+  int dof = 0;
+  double force = 0, power = 0;  ///< N, W
+};
+
+std::vector<TorquePlace> torque_places(const LumpedSystem& system, const std::vector<Rotor>& rotors,
+                                       const std::vector<ShaftEnd>& ends) {
+  std::vector<TorquePlace> places;
+  for (const auto& end : ends) {
+    if (end.load == 0 || !end.refusal.empty()) continue;
+    const auto behind = rotors_of(rotors, end.name);
+    const int dof = system.find((behind.empty() ? end.name : rotors[behind.back()].name) + "_u");
+    if (dof >= 0) places.push_back({dof, end.load, end.load * end.radius * end.speed});
+  }
+  return places;
+}
+
+/// Mean forces of the meshes under constant loads, with stiffnesses that do not change.
+class MeanForces {
+ public:
+  MeanForces(const LumpedSystem& system, const Eigen::MatrixXd& neutral)
+      : vectors_(system.mesh_vectors()),
+        tangent_(mesh_stiffness_matrix(system, mean_stiffnesses(system))),
+        friction_(Eigen::MatrixXd::Zero(vectors_.rows(), vectors_.cols())) {
+    const Eigen::MatrixXd momentum = system.mass() * neutral;
+    factor_.compute(system.stiffness() + vectors_ * tangent_ * vectors_.transpose() +
+                    tangent_.diagonal().maxCoeff() / momentum.cwiseAbs2().maxCoeff() * momentum * momentum.transpose());
+    for (Eigen::Index m = 0; m < vectors_.cols(); ++m)
+      for (const auto& share : system.meshes()[static_cast<std::size_t>(m)].friction)
+        for (const auto& [i, factor] : share.along) friction_(i, m) += factor * share.curve.mean();
+  }
+
+  /// The mean friction, N, one per DOF.
+  [[nodiscard]] Eigen::VectorXd friction(const Eigen::VectorXd& load) const {
+    const Eigen::VectorXd force = tangent_ * vectors_.transpose() * factor_.solve(load);
+    return -friction_ * force.cwiseAbs();
+  }
+
+ private:
+  Eigen::MatrixXd vectors_, tangent_, friction_;
+  Eigen::LDLT<Eigen::MatrixXd> factor_;
+};
+
+}  // namespace
+
+LumpedSystem with_balanced_friction(const LumpedSystem& system, const std::vector<Rotor>& rotors,
+                                    const std::vector<ShaftEnd>& ends) {
+  if (!system.has_friction()) return system;
+  const auto found = modes(system);
+  const Eigen::MatrixXd b = system.mesh_vectors();
+  const Eigen::Index free =
+      neutral_motions(found,
+                      system.stiffness() + system.rotating_stiffness() +
+                          b * mesh_stiffness_matrix(system, mean_tangents(system)) * b.transpose(),
+                      system.mass());
+  if (free == 0) return system;
+  const Eigen::MatrixXd neutral = found.shapes().leftCols(free), momentum = system.mass() * neutral;
+
+  auto places = torque_places(system, rotors, ends);
+  const auto strongest = std::max_element(places.begin(), places.end(),
+                                          [](const auto& one, const auto& other) { return one.power < other.power; });
+  std::vector<TorquePlace> changed;
+  for (auto place = places.begin(); place != places.end(); ++place)
+    if (free == 1 ? place->power < 0 : place != strongest) changed.push_back(*place);
+  Eigen::MatrixXd torque = Eigen::MatrixXd::Zero(system.dofs(), std::ssize(changed));
+  for (std::size_t i = 0; i < changed.size(); ++i)
+    torque(changed[i].dof, static_cast<Eigen::Index>(i)) = changed[i].force;
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> balance(neutral.transpose() * torque);
+  if (balance.rank() < free)
+    throw InputError(fmt::format("friction brakes {} free rotations; {} torques of driven bodies can balance it", free,
+                                 changed.size()));
+
+  const MeanForces mean(system, neutral);
+  Eigen::VectorXd load = system.load(), losses;
+  constexpr int steps = 8;  // each leaves a few coefficients of friction of the change before
+  for (int i = 0; i < steps; ++i) {
+    const Eigen::VectorXd friction = mean.friction(load);
+    losses = torque * balance.solve(-neutral.transpose() * friction);
+    losses -= momentum * (neutral.transpose() * losses);
+    load = system.load() + losses + friction - momentum * (neutral.transpose() * friction);
+  }
+  LumpedSystemBuilder builder;
+  builder.add(system);
+  builder.keep_friction_from(neutral);
+  for (Eigen::Index i = 0; i < losses.size(); ++i)
+    builder.add_load({{static_cast<int>(i), 1.0}}, losses[i], LoadCause::losses);
+  return builder.build();
+}
+
+}  // namespace annulus::dynamics
