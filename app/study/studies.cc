@@ -77,6 +77,8 @@ void check_directions(const Scene& scene) {
     };
     if (!system->offers(sweep.direction)) refuse("is not offered for stages of kind " + scene.stage.kind);
     if (sweep.direction != SweepDirection::branches) continue;
+    if (const auto rough = system->rough_lumped(); rough && rough->system.has_friction())
+      refuse("is not found with friction on the flanks ([friction])");
     if (const auto why = broken_branch(scene, sweep); !why.empty())
       refuse(fmt::format("cannot follow {}: {}", sweep.input, why));
   }

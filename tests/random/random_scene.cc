@@ -235,6 +235,7 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"statics.*", "of annulus statics alone"},
       {"dynamics.mesh_cycles", "a length of motion, without a steady state"},
       {"rotor.*", "put on a body that turns"},
+      {"friction.*", "by a coefficient or by the oil"},
   };
   return keys;
 }
@@ -275,6 +276,14 @@ void put_a_rotor(Draw draw, GearSet& set) {
   if (draw.chance(0.3)) set.draft.set("rotor.shaft_backlash_deg", rounded(draw.log_uniform(0.001, 0.1)));
 }
 
+/// Flanks of some scenes have friction. Drawn apart, as well.
+void put_friction(Draw draw, GearSet& set) {
+  if (set.draft.text_of("stage.kind") == "two_k_v" || !draw.chance(0.15)) return;
+  if (draw.chance(0.5)) return set.draft.set("friction.coefficient", rounded(draw.log_uniform(0.01, 0.15)));
+  set.draft.set("friction.oil_viscosity_mPas", rounded(draw.log_uniform(5, 300)));
+  set.draft.set("friction.roughness_um", rounded(draw.log_uniform(0.1, 3)));
+}
+
 }  // namespace
 
 RandomScene random_scene(std::uint64_t seed) {
@@ -291,6 +300,7 @@ RandomScene random_scene(std::uint64_t seed) {
   put_planets_on_rollers(draw, scene.model, set);
   Walk(draw, set, app::schema(scene.kind)).run();
   put_a_rotor(Draw(seed + 1000000), set);
+  put_friction(Draw(seed + 2000000), set);
   scene.draft = std::move(set.draft);
   return scene;
 }

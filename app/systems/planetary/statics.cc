@@ -15,6 +15,7 @@
 #include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/structure_input.h"
 #include "app/systems/shared/faces.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/space_input.h"
 #include "app/systems/shared/space_results.h"
 #include "core/errors.h"
@@ -327,6 +328,13 @@ void warn_of_studies(StageStatics& statics) {
                    fmt::join(names, ", "))});
 }
 
+void warn_of_friction(StageStatics& statics) {
+  if (!has_friction(statics.scene)) return;
+  statics.rings.front().warnings.push_back(
+      {"friction_left_out", Severity::warning,
+       "annulus statics has flanks without friction; annulus run has [friction] in the motion"});
+}
+
 }  // namespace
 
 StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, const RunOptions& run_options) {
@@ -353,6 +361,7 @@ StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, con
     }
   }
   warn_of_studies(statics);
+  warn_of_friction(statics);
   return statics;
 }
 

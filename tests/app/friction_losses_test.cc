@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/csv.h"
+#include "core/files.h"
+#include "core/units.h"
+#include "tests/app/pair_scenes.h"
+#include "tests/app/run_program.h"
+#include "tests/app/scene_refusal.h"
+#include "tests/app/scenes.h"
+#include "tests/temporary_folder.h"
+#include "tests/verification_record.h"
+
+/// Friction on the flanks: losses of solved and of prescribed meshes, and the rules of its keys.
+BOOST_AUTO_TEST_SUITE(friction_losses)
+
+using namespace annulus;
+
+namespace {
+
+struct Stated {
+  double value = 0, error = 0;
+};
+/// Results of a finished run by their keys.
+std::map<std::string, Stated> results_of(const std::filesystem::path& out) {
+  std::map<std::string, Stated> results;
+  std::istringstream lines(read_file(out / "figures.csv"));
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> cells;
+    std::istringstream cut(line);
+    for (std::string cell; cells.size() < 5 && std::getline(cut, cell, ',');) cells.push_back(cell);
+    if (cells.size() == 5 && cells[1] != "key" && !cells[3].empty())
+      results[cells[1]] = {std::stod(cells[3]), cells[4].empty() ? 0 : std::stod(cells[4])};
+  }
+  return results;
+}
+
+/// Mean distance (m) of the tooth pairs from the pitch point by their shares, at the largest load of the table or at
+/// `load` (N), from the file of positions.
+double mean_distance(const std::filesystem::path& file, double pitch_roll, double load) {
+  const auto csv = Csv::read(file);
+  const auto phase = csv.column("mesh_phase"), of_load = csv.column("load_N");
+  double sum = 0;
+  int rows = 0;
+  for (const auto& row : csv.rows) {
+    if (std::abs(row[of_load] - load) > 1e-3 * load || row[phase] >= 1) continue;
+    ++rows;
+    for (int pair = 1;; ++pair) {
+      const auto name = "pair" + std::to_string(pair);
+      if (std::find(csv.columns.begin(), csv.columns.end(), name + "_share") == csv.columns.end()) break;
+      const double share = row[csv.column(name + "_share")];
+      if (share > 0) sum += share * std::abs(row[csv.column(name + "_roll_mm")] * units::mm - pitch_roll);
+    }
+  }
+  return sum / rows;
+}
+
+}  // namespace
+
+// Power lost from the positions of the file, by sums over tooth pairs.
+BOOST_AUTO_TEST_CASE(losses_of_a_solved_stage) {
+  annulus::test::Verification record("Power lost in friction", "sum over the tooth pairs of the file of positions");
+  const test::TemporaryFolder folder;
+  write_file(folder.path() / "scene.toml",
+             "accuracy = 0.05\nmodel = \"plane\"\n" + test::small_stage() + "[friction]\ncoefficient = 0.06\n");
+  const auto outcome = test::run_program(folder.path(), "run scene.toml -o out");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  auto results = results_of(folder.path() / "out");
+  const double frequency = 1500.0 / 60 * 24 * 72 / 96, base = 48e-3 * std::cos(20 * units::deg);
+  const double force = 200e3 / (1500 * units::rpm) / (4 * base), roll = 48e-3 * std::sin(20 * units::deg);
+  double sum = 0;
+  for (const auto& [mesh, teeth] :
+       {std::pair{"sun_planet", 1.0 / 24 + 1.0 / 24}, {"ring_planet", 1.0 / 24 - 1.0 / 72}}) {
+    const auto lost = results.at(std::string(mesh) + "_friction_loss_W");
+    const auto file = folder.path() / "out" / "ring" / ("lte_" + std::string(mesh) + ".csv");
+    const double expected =
+        4 * 0.06 * force * mean_distance(file, roll, force) * 2 * std::numbers::pi * frequency * teeth;
+    record.close(mesh, "W", lost.value, expected, 0.03, "positions of the file are 1/16 of a mesh cycle apart");
+    BOOST_TEST(lost.error > 0);
+    BOOST_TEST(lost.error < 0.05 * lost.value);
+    sum += lost.value;
+  }
+  record.close("efficiency", "", results.at("efficiency").value, 1 - sum / 200e3, 1e-9, "rounding");
+  BOOST_TEST(results.at("sun_planet_friction_coefficient").value == 0.06);
+  BOOST_TEST(outcome.out.find("Efficiency of the meshes, %") != std::string::npos, outcome.out);
+}
+
+// With a prescribed stiffness tooth pairs share the load evenly, which the run says. More friction loses more.
+BOOST_AUTO_TEST_CASE(losses_of_prescribed_meshes) {
+  const test::TemporaryFolder folder;
+  const auto run = [&](const std::string& friction) {
+    write_file(folder.path() / "scene.toml", test::quick_scene() + friction);
+    const auto outcome = test::run_program(folder.path(), "run scene.toml -o out");
+    BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+    return std::pair{results_of(folder.path() / "out"), outcome.out + outcome.err};
+  };
+  auto [without, quiet] = run("");
+  BOOST_TEST(without.count("efficiency") == 0U);
+  BOOST_TEST(quiet.find("stiff teeth") == std::string::npos);
+  auto [little, warned] = run("[friction]\ncoefficient = 0.03\n");
+  auto [more, again] = run("[friction]\ncoefficient = 0.09\n");
+  BOOST_TEST(warned.find("stiff teeth") != std::string::npos, warned);
+  BOOST_TEST(std::abs((1 - more["efficiency"].value) / (1 - little["efficiency"].value) - 3) < 1e-9);
+  BOOST_TEST((little["efficiency"].value > 0.98 && little["efficiency"].value < 0.999));
+  BOOST_TEST(more["sun_planet_dynamic_factor"].value != without["sun_planet_dynamic_factor"].value);
+  auto [oil, text] = run("[friction]\noil_viscosity_mPas = 40\nroughness_um = 0.5\n");
+  BOOST_TEST(
+      (oil["sun_planet_friction_coefficient"].value > 0.02 && oil["sun_planet_friction_coefficient"].value < 0.08));
+}
+
+BOOST_AUTO_TEST_CASE(friction_of_a_pair) {
+  const test::TemporaryFolder folder;
+  write_file(folder.path() / "scene.toml", test::quick_pair() + "[friction]\ncoefficient = 0.05\n");
+  const auto outcome = test::run_program(folder.path(), "run scene.toml -o out");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  auto results = results_of(folder.path() / "out");
+  BOOST_TEST((results["efficiency"].value > 0.97 && results["efficiency"].value < 0.999));
+}
+
+BOOST_AUTO_TEST_CASE(keys_of_friction) {
+  const auto refusal = [](const std::string& keys) {
+    return test::scene_refusal(test::quick_scene() + "[friction]\n" + keys);
+  };
+  const auto says = [&](const std::string& keys, const std::string& part) {
+    BOOST_TEST(refusal(keys).find(part) != std::string::npos, refusal(keys));
+  };
+  BOOST_TEST(refusal("coefficient = 0.05\n").empty());
+  BOOST_TEST(refusal("oil_viscosity_mPas = 40\nroughness_um = 0.5\nlubricant_factor = 0.8\n").empty());
+  says("", "coefficient");
+  says("coefficient = 0.05\noil_viscosity_mPas = 40\nroughness_um = 0.5\n", "oil_viscosity_mPas");
+  says("oil_viscosity_mPas = 40\n", "roughness_um");
+  says("coefficient = 0.05\nlubricant_factor = 0.8\n", "lubricant_factor");
+  says("coefficient = 1.5\n", "1.5");
+}
+
+BOOST_AUTO_TEST_CASE(branches_are_refused_with_friction) {
+  const test::TemporaryFolder folder;
+  write_file(folder.path() / "scene.toml",
+             test::quick_scene() +
+                 "[friction]\ncoefficient = 0.05\n[[sweep]]\ninput = \"stage.sun_speed_rpm\"\nfrom = "
+                 "1000\nto = 1200\npoints = 3\ndirection = \"branches\"\n");
+  const auto outcome = test::run_program(folder.path(), "run scene.toml -o out");
+  BOOST_TEST(outcome.status != 0);
+  BOOST_TEST(outcome.err.find("friction") != std::string::npos, outcome.err);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
