@@ -66,7 +66,7 @@ double mean_distance(const std::filesystem::path& file, double pitch_roll, doubl
 // Power lost from the positions of the file, by sums over tooth pairs.
 BOOST_AUTO_TEST_CASE(losses_of_a_solved_stage) {
   annulus::test::Verification record("Power lost in friction", "sum over the tooth pairs of the file of positions");
-  const test::TemporaryFolder folder;
+  const test::TemporaryFolder folder("annulus_friction");
   write_file(folder.path() / "scene.toml",
              "accuracy = 0.05\nmodel = \"plane\"\n" + test::small_stage() + "[friction]\ncoefficient = 0.06\n");
   const auto outcome = test::run_program(folder.path(), "run scene.toml -o out");
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(losses_of_a_solved_stage) {
 
 // With a prescribed stiffness tooth pairs share the load evenly, which the run says. More friction loses more.
 BOOST_AUTO_TEST_CASE(losses_of_prescribed_meshes) {
-  const test::TemporaryFolder folder;
+  const test::TemporaryFolder folder("annulus_friction");
   const auto run = [&](const std::string& friction) {
     write_file(folder.path() / "scene.toml", test::quick_scene() + friction);
     const auto outcome = test::run_program(folder.path(), "run scene.toml -o out");
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(losses_of_prescribed_meshes) {
 }
 
 BOOST_AUTO_TEST_CASE(friction_of_a_pair) {
-  const test::TemporaryFolder folder;
+  const test::TemporaryFolder folder("annulus_friction");
   write_file(folder.path() / "scene.toml", test::quick_pair() + "[friction]\ncoefficient = 0.05\n");
   const auto outcome = test::run_program(folder.path(), "run scene.toml -o out");
   BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(keys_of_friction) {
 }
 
 BOOST_AUTO_TEST_CASE(branches_are_refused_with_friction) {
-  const test::TemporaryFolder folder;
+  const test::TemporaryFolder folder("annulus_friction");
   write_file(folder.path() / "scene.toml",
              test::quick_scene() +
                  "[friction]\ncoefficient = 0.05\n[[sweep]]\ninput = \"stage.sun_speed_rpm\"\nfrom = "
