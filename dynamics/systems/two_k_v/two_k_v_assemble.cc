@@ -11,7 +11,7 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 
 /// A rotation as u = r theta with its mass J/r^2; empty forms and zero 1/mass where it is held.
-struct Turning {
+struct TurningForm {
   LinearForm u;
   double radius = 0;
   double inverse_mass = 0;  ///< r^2/J, 1/kg
@@ -35,12 +35,12 @@ class TwoKVAssembler {
 
  private:
   /// A body whose rotation a rigid support may hold.
-  Turning supported(const std::string& name, double inertia, double radius, double support) {
-    return support == rigid ? Turning{{}, radius, 0} : turning(name, inertia, radius);
+  TurningForm supported(const std::string& name, double inertia, double radius, double support) {
+    return support == rigid ? TurningForm{{}, radius, 0} : turning(name, inertia, radius);
   }
 
-  Turning turning(const std::string& name, double inertia, double radius) {
-    Turning body{builder_.add_dof(name + "_u"), radius, radius * radius / inertia};
+  TurningForm turning(const std::string& name, double inertia, double radius) {
+    TurningForm body{builder_.add_dof(name + "_u"), radius, radius * radius / inertia};
     builder_.add_mass(body.u, inertia / (radius * radius));
     return body;
   }
@@ -85,7 +85,7 @@ class TwoKVAssembler {
       add_spring(planet_x_[i] + (-1.0) * output_.u, stage_.crank_bearing, 1 / stage_.planet_mass + output_.inverse_mass,
                  "crank" + number + "_bearing");
     }
-    const auto support = [&](const Turning& body, double stiffness, const std::string& name) {
+    const auto support = [&](const TurningForm& body, double stiffness, const std::string& name) {
       if (stiffness != rigid && stiffness != 0)
         add_spring(body.u, stiffness / (body.radius * body.radius), body.inverse_mass, name + "_support_u");
     };
@@ -161,8 +161,8 @@ class TwoKVAssembler {
 
   const TwoKVStage& stage_;
   LumpedSystemBuilder builder_;
-  Turning input_, sun_, output_;
-  std::vector<Turning> planets_, cranks_, arcs_;
+  TurningForm input_, sun_, output_;
+  std::vector<TurningForm> planets_, cranks_, arcs_;
   std::vector<LinearForm> planet_x_, arc_x_;
 };
 
