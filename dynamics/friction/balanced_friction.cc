@@ -14,7 +14,7 @@ namespace annulus::dynamics {
 
 namespace {
 
-/// Where the torque of a body acts, and the power that it brings.
+/// Where the torque of a body acts, and the power that it brings by the speed of the body.
 struct TorquePlace {
   int dof = 0;
   double force = 0, power = 0;  ///< N, W
@@ -73,21 +73,26 @@ LumpedSystem with_balanced_friction(const LumpedSystem& system, const std::vecto
   if (free == 0) return system;
   const Eigen::MatrixXd neutral = found.shapes().leftCols(free), momentum = system.mass() * neutral;
 
-  auto places = torque_places(system, rotors, ends);
-  const auto strongest = std::max_element(places.begin(), places.end(),
-                                          [](const auto& one, const auto& other) { return one.power < other.power; });
+  const MeanForces mean(system, neutral);
+  const auto places = torque_places(system, rotors, ends);
+  // A single free rotation turns the way in which friction brakes it.
+  const double sense = neutral.col(0).dot(mean.friction(system.load())) < 0 ? 1 : -1;
+  const auto power = [&](const TorquePlace& place) {
+    return free == 1 ? place.force * sense * neutral(place.dof, 0) : place.power;
+  };
+  const auto strongest = std::max_element(
+      places.begin(), places.end(), [&](const auto& one, const auto& other) { return power(one) < power(other); });
   std::vector<TorquePlace> changed;
   for (auto place = places.begin(); place != places.end(); ++place)
-    if (free == 1 ? place->power < 0 : place != strongest) changed.push_back(*place);
+    if (free == 1 ? power(*place) < 0 : place != strongest) changed.push_back(*place);
+  if (std::ssize(changed) < free)
+    throw InputError(fmt::format("friction brakes {} free rotations; {} torques of driven bodies can balance it", free,
+                                 changed.size()));
   Eigen::MatrixXd torque = Eigen::MatrixXd::Zero(system.dofs(), std::ssize(changed));
   for (std::size_t i = 0; i < changed.size(); ++i)
     torque(changed[i].dof, static_cast<Eigen::Index>(i)) = changed[i].force;
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> balance(neutral.transpose() * torque);
-  if (balance.rank() < free)
-    throw InputError(fmt::format("friction brakes {} free rotations; {} torques of driven bodies can balance it", free,
-                                 changed.size()));
 
-  const MeanForces mean(system, neutral);
   Eigen::VectorXd load = system.load(), losses;
   constexpr int steps = 8;  // each leaves a few coefficients of friction of the change before
   for (int i = 0; i < steps; ++i) {

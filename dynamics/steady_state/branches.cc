@@ -34,8 +34,9 @@ struct BalanceAt {
       : lumped(std::move(of)),
         period(lumped.problem.period_in_cycles / lumped.problem.mesh_frequency),
         linear(lumped.system, stiffness),
-        problem(balance_problem(lumped.system, linear, stiffness, period, samples_of(options, lumped.problem))),
-        balance(problem, period, samples_of(options, lumped.problem)) {}
+        problem(
+            balance_problem(lumped.system, linear, stiffness, {.period = period}, samples_of(options, lumped.problem))),
+        balance(problem, samples_of(options, lumped.problem)) {}
   static Eigen::Index samples_of(const BranchOptions& options, const SteadyProblem& problem) {
     return static_cast<Eigen::Index>(options.samples_per_cycle) * problem.period_in_cycles;
   }

@@ -81,7 +81,7 @@ bool FrequencyResponse::eigenvalues_agree() const {
   for (const double share : {1e-3, 0.05, 0.3, 1.0}) {
     const double rate = share * highest;
     const Eigen::MatrixXcd expected = b_.transpose() * solve_directly(rate);
-    const Eigen::MatrixXd found = transfer_by_eigenvalues(rate, 1);
+    const Eigen::MatrixXd found = transfer_by_eigenvalues(Eigen::VectorXd::Constant(1, rate));
     const auto meshes = b_.cols();
     const double scale = expected.cwiseAbs().maxCoeff();
     if (!((found.leftCols(meshes) - expected.real()).cwiseAbs().maxCoeff() <= 1e-9 * scale)) return false;
@@ -102,20 +102,20 @@ Eigen::VectorXcd FrequencyResponse::displacement(double rate, const Eigen::Vecto
   return dynamic_stiffness(rate).partialPivLu().solve(force);
 }
 
-Eigen::MatrixXd FrequencyResponse::mesh_transfer(double spacing, Eigen::Index lines) const {
-  if (by_eigenvalues_) return transfer_by_eigenvalues(spacing, lines);
-  const Eigen::Index meshes = b_.cols();
+Eigen::MatrixXd FrequencyResponse::mesh_transfer(const Eigen::VectorXd& rates) const {
+  if (by_eigenvalues_) return transfer_by_eigenvalues(rates);
+  const Eigen::Index meshes = b_.cols(), lines = rates.size();
   Eigen::MatrixXd result(meshes, 2 * meshes * lines);
   for (Eigen::Index j = 0; j < lines; ++j) {
-    const Eigen::MatrixXcd transfer = b_.transpose() * solve_directly(static_cast<double>(j + 1) * spacing);
+    const Eigen::MatrixXcd transfer = b_.transpose() * solve_directly(rates[j]);
     result.middleCols(2 * meshes * j, meshes) = transfer.real();
     result.middleCols(2 * meshes * j + meshes, meshes) = transfer.imag();
   }
   return result;
 }
 
-Eigen::MatrixXd FrequencyResponse::transfer_by_eigenvalues(double spacing, Eigen::Index lines) const {
-  const Eigen::Index meshes = b_.cols(), size = meshes * meshes;
+Eigen::MatrixXd FrequencyResponse::transfer_by_eigenvalues(const Eigen::VectorXd& rates) const {
+  const Eigen::Index meshes = b_.cols(), size = meshes * meshes, lines = rates.size();
   Eigen::MatrixXd result(meshes, 2 * meshes * lines);
   // Conjugate pairs p together: (P s + Q) / (s^2 - 2 Re(p) s + |p|^2) with real P and Q, so that all lines are one real
   // matrix product.
@@ -136,7 +136,7 @@ Eigen::MatrixXd FrequencyResponse::transfer_by_eigenvalues(double spacing, Eigen
       terms.col(column) = residue.real().reshaped();
     }
     for (Eigen::Index j = 0; j < lines; ++j) {
-      const Complex s(0, static_cast<double>(j + 1) * spacing);
+      const Complex s(0, rates[j]);
       const Complex g = pair ? 1.0 / (s * s - 2 * p.real() * s + std::norm(p)) : 1.0 / (s - p.real());
       const Complex first = pair ? s * g : g;
       lines_of_terms(column, 2 * j) = first.real();
@@ -152,22 +152,19 @@ Eigen::MatrixXd FrequencyResponse::transfer_by_eigenvalues(double spacing, Eigen
   return result;
 }
 
-Eigen::MatrixXcd FrequencyResponse::displacements(double spacing, const Eigen::MatrixXcd& forces) const {
+Eigen::MatrixXcd FrequencyResponse::displacements(const Eigen::VectorXd& rates, const Eigen::MatrixXcd& forces) const {
   const Eigen::Index lines = forces.cols();
   if (!by_eigenvalues_) {
     Eigen::MatrixXcd result(b_.rows(), lines);
-    for (Eigen::Index j = 0; j < lines; ++j)
-      result.col(j) = solve_directly(static_cast<double>(j + 1) * spacing) * forces.col(j);
+    for (Eigen::Index j = 0; j < lines; ++j) result.col(j) = solve_directly(rates[j]) * forces.col(j);
     return result;
   }
   Eigen::MatrixXcd amplitudes = inputs_ * forces;
-  for (Eigen::Index j = 0; j < lines; ++j)
-    amplitudes.col(j).array() /= Complex(0, static_cast<double>(j + 1) * spacing) - eigenvalues_.array();
+  for (Eigen::Index j = 0; j < lines; ++j) amplitudes.col(j).array() /= Complex(0, rates[j]) - eigenvalues_.array();
   Eigen::MatrixXcd result = outputs_ * amplitudes;
   if (rigid_rates_.size() != 0) {
-    const Eigen::MatrixXcd rates = rigid_rates_ * amplitudes;
-    for (Eigen::Index j = 0; j < lines; ++j)
-      result.col(j) += rates.col(j) / Complex(0, static_cast<double>(j + 1) * spacing);
+    const Eigen::MatrixXcd velocities = rigid_rates_ * amplitudes;
+    for (Eigen::Index j = 0; j < lines; ++j) result.col(j) += velocities.col(j) / Complex(0, rates[j]);
   }
   return result;
 }

@@ -19,12 +19,12 @@ class FrequencyResponse {
   /// `mesh_stiffness`: N/m, one per mesh. Throws SolverError when the system is singular at w = 0.
   FrequencyResponse(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness);
 
-  /// Transfer B^T D(w)^-1 B (m/N) from mesh forces to approaches at the lines w = j x `spacing` (rad/s), j = 1 ...
-  /// lines. Shape: meshes x (2 meshes lines), per line the real part beside the imaginary part.
-  [[nodiscard]] Eigen::MatrixXd mesh_transfer(double spacing, Eigen::Index lines) const;
+  /// Transfer B^T D(w)^-1 B (m/N) from mesh forces to approaches at some `rates` w (rad/s), none of them 0. Shape:
+  /// meshes x (2 meshes rates), per rate the real part beside the imaginary part.
+  [[nodiscard]] Eigen::MatrixXd mesh_transfer(const Eigen::VectorXd& rates) const;
 
-  /// Displacements D(w)^-1 B F (m, DOFs x lines) at the same lines, from amplitudes F (N, meshes x lines).
-  [[nodiscard]] Eigen::MatrixXcd displacements(double spacing, const Eigen::MatrixXcd& forces) const;
+  /// Displacements D(w)^-1 B F (m, DOFs x rates) at such rates, from amplitudes F (N, meshes x rates).
+  [[nodiscard]] Eigen::MatrixXcd displacements(const Eigen::VectorXd& rates, const Eigen::MatrixXcd& forces) const;
 
   /// D(0)^-1 f (m, one per DOF) for a real force f (N, one per DOF) that does no work on rigid motions.
   [[nodiscard]] Eigen::VectorXd static_displacement(const Eigen::VectorXd& force) const;
@@ -41,7 +41,7 @@ class FrequencyResponse {
  private:
   [[nodiscard]] Eigen::MatrixXcd dynamic_stiffness(double rate) const;  // D
   [[nodiscard]] Eigen::MatrixXcd solve_directly(double rate) const;     // D^-1 B
-  [[nodiscard]] Eigen::MatrixXd transfer_by_eigenvalues(double spacing, Eigen::Index lines) const;
+  [[nodiscard]] Eigen::MatrixXd transfer_by_eigenvalues(const Eigen::VectorXd& rates) const;
   void find_eigenvalues(const Eigen::MatrixXd& shapes, Eigen::Index rigid_motions);
   [[nodiscard]] bool eigenvalues_agree() const;
 

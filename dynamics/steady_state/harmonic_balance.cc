@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "core/errors.h"
 
@@ -14,7 +15,21 @@ namespace {
 
 using Complex = std::complex<double>;
 
+/// Rates of the lines of the first angle beside line l of the second one, without that at 0.
+Eigen::VectorXd rates_beside(const BalanceGrid& grid, int l, Eigen::Index samples) {
+  const Eigen::Index first = l == 0 ? 1 : 0, count = samples / 2 - first;
+  Eigen::VectorXd rates(count);
+  for (Eigen::Index j = 0; j < count; ++j) rates[j] = grid.rate(j + first, l);
+  return rates;
+}
+
 }  // namespace
+
+double BalanceGrid::spacing() const { return 2 * std::numbers::pi / period; }
+
+double BalanceGrid::rate(Eigen::Index j, int l) const {
+  return static_cast<double>(j) * spacing() + (2 * l > rows ? l - rows : l) * second_rate;
+}
 
 std::optional<Eigen::Index> load_line(const HarmonicLoad& load, double spacing, Eigen::Index samples) {
   const double line = std::abs(load.rate) / spacing;
@@ -25,17 +40,17 @@ std::optional<Eigen::Index> load_line(const HarmonicLoad& load, double spacing, 
 }
 
 BalanceProblem balance_problem(const LumpedSystem& system, const FrequencyResponse& response,
-                               const Eigen::VectorXd& stiffness, double period, Eigen::Index samples) {
-  const double spacing = 2 * std::numbers::pi / period;
-  BalanceProblem problem{system, response, stiffness, spacing, response.mesh_transfer(spacing, samples / 2 - 1),
-                         {},     {}};
+                               const Eigen::VectorXd& stiffness, BalanceGrid grid, Eigen::Index samples) {
+  require(grid.rows % 2 == 1, fmt::format("the second angle has {} values, which must be odd", grid.rows));
+  BalanceProblem problem{system, response, stiffness, std::move(grid), {}, {}, {}};
+  resolve(problem, samples);
   problem.static_transfer.resize(stiffness.size(), stiffness.size());
   const auto& b = response.mesh_vectors();
   for (Eigen::Index m = 0; m < stiffness.size(); ++m)
     problem.static_transfer.col(m) = b.transpose() * response.static_displacement(b.col(m));
   problem.static_approach = b.transpose() * response.static_displacement(system.load());
   for (const auto& load : system.harmonic_loads()) {
-    const double rate = std::abs(load.rate);
+    const double rate = std::abs(load.rate), spacing = problem.grid.spacing();
     const auto line = load_line(load, spacing, samples);
     require(line.has_value(), fmt::format("a load of {:g} rad/s does not fit lines {:g} rad/s apart", rate, spacing));
     const Complex sine(0, std::copysign(1.0, load.rate));
@@ -45,61 +60,113 @@ BalanceProblem balance_problem(const LumpedSystem& system, const FrequencyRespon
   return problem;
 }
 
-HarmonicBalance::HarmonicBalance(const BalanceProblem& problem, double period, Eigen::Index samples)
-    : problem_(problem), meshes_(problem.system, period, samples), transform_(static_cast<int>(samples)) {
-  require(samples % 4 == 0 && samples / 2 - 1 <= problem.transfer.cols() / (2 * problem.transfer.rows()),
+void resolve(BalanceProblem& problem, Eigen::Index samples) {
+  const Eigen::Index meshes = problem.mean_stiffness.size();
+  problem.transfer.resize(static_cast<std::size_t>(problem.grid.rows));
+  for (int l = 0; l < problem.grid.rows; ++l) {
+    auto& transfer = problem.transfer[static_cast<std::size_t>(l)];
+    const auto rates = rates_beside(problem.grid, l, samples);
+    if (transfer.cols() < 2 * meshes * rates.size()) transfer = problem.response.mesh_transfer(rates);
+  }
+}
+
+HarmonicBalance::HarmonicBalance(const BalanceProblem& problem, Eigen::Index samples)
+    : problem_(problem), transform_(static_cast<int>(samples)) {
+  const auto& grid = problem.grid;
+  const Eigen::Index meshes = problem.mean_stiffness.size(), last = samples / 2;
+  require(samples % 4 == 0 && last - 1 <= problem.transfer.front().cols() / (2 * meshes),
           fmt::format("{} samples of the harmonic balance do not fit {} lines of its transfer functions", samples,
-                      problem.transfer.cols() / (2 * problem.transfer.rows())));
-  lines_.resize(samples / 2 + 1, problem.mean_stiffness.size());
+                      problem.transfer.front().cols() / (2 * meshes)));
+  for (int row = 0; row < grid.rows; ++row) meshes_.emplace_back(problem.system, grid.period, samples);
+  scale_ = 1.0 / static_cast<double>(samples * grid.rows);
+  lines_.resize(grid.rows * (last + 1), meshes);
   approach_lines_ = lines_;
   line_.resize(lines_.rows());
-  loaded_ = problem.static_approach.transpose().replicate(samples, 1);
-  Eigen::VectorXd change(samples);
+  across_.resize(grid.rows);
+  rate_of_.setZero(lines_.rows());
+  for (int l = 0; l < grid.rows; ++l)
+    for (Eigen::Index j = 0; j < last; ++j) rate_of_[l * (last + 1) + j] = grid.rate(j, l);
+  shift_.setZero(grid.rows, meshes);
+  shift_rate_ = shift_;
+  for (const auto& [mesh, error] : grid.waves)
+    for (int row = 0; row < grid.rows; ++row) {
+      const double angle = error.rate / grid.second_rate * 2 * std::numbers::pi * row / grid.rows + error.phase;
+      shift_(row, mesh) += error.amount * std::sin(angle);
+      shift_rate_(row, mesh) += error.amount * error.rate * std::cos(angle);
+    }
+  loaded_ = problem.static_approach.transpose().replicate(samples * grid.rows, 1);
+  Eigen::VectorXd change(loaded_.rows());
   for (const auto& load : problem.load_lines) {
     const Eigen::VectorXcd amplitude = problem.response.mesh_vectors().transpose() * load.displacement;
     for (Eigen::Index m = 0; m < loaded_.cols(); ++m) {
       line_.setZero();
       line_[load.line] = amplitude[m];
-      transform_.inverse(line_.data(), change.data());
+      to_values(line_.data(), change.data());
       loaded_.col(m) += change;
     }
   }
 }
 
+/// Fourier transform of each line of the first angle over the rows, of which there are few.
+void HarmonicBalance::across_rows(Complex* lines, Sense sense) {
+  const int rows = this->rows();
+  if (rows == 1) return;
+  const Eigen::Index count = lines_of_row();
+  const double sign = static_cast<int>(sense);
+  Eigen::MatrixXcd turn(rows, rows);
+  for (int i = 0; i < rows; ++i)
+    for (int k = 0; k < rows; ++k) turn(i, k) = std::polar(1.0, sign * 2 * std::numbers::pi * ((i * k) % rows) / rows);
+  Eigen::Map<Eigen::MatrixXcd> of_rows(lines, count, rows);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    across_ = of_rows.row(j).transpose();
+    of_rows.row(j) = (turn * across_).transpose();
+  }
+}
+
+void HarmonicBalance::to_lines(const double* values, Complex* lines) {
+  for (int row = 0; row < rows(); ++row) transform_.forward(values + row * samples(), lines + row * lines_of_row());
+  across_rows(lines, Sense::forward);
+}
+
+void HarmonicBalance::to_values(Complex* lines, double* values) {
+  across_rows(lines, Sense::back);
+  for (int row = 0; row < rows(); ++row) transform_.inverse(lines + row * lines_of_row(), values + row * samples());
+}
+
 void HarmonicBalance::forward(const Eigen::Ref<const Eigen::MatrixXd>& values, Eigen::MatrixXcd& lines) {
-  for (Eigen::Index m = 0; m < values.cols(); ++m) transform_.forward(values.col(m).data(), lines.col(m).data());
+  for (Eigen::Index m = 0; m < values.cols(); ++m) to_lines(values.col(m).data(), lines.col(m).data());
 }
 
 void HarmonicBalance::respond(Eigen::Ref<Eigen::MatrixXd> approach) {
   const Eigen::Index meshes = lines_.cols(), last = samples() / 2;
-  const double scale = 1.0 / static_cast<double>(samples());
   Eigen::VectorXd real(meshes), imaginary(meshes), sum(meshes), imaginary_sum(meshes);
-  real = scale * lines_.row(0).real();
+  real = scale_ * lines_.row(0).real();
   lines_.row(0) = (problem_.static_transfer * real).cast<Complex>();
-  for (Eigen::Index j = 1; j < last; ++j) {
-    for (Eigen::Index m = 0; m < meshes; ++m) {
-      real[m] = scale * lines_(j, m).real();
-      imaginary[m] = scale * lines_(j, m).imag();
+  for (int l = 0; l < rows(); ++l) {
+    const auto& transfer = problem_.transfer[static_cast<std::size_t>(l)];
+    const Eigen::Index first = l == 0 ? 1 : 0, begin = l * lines_of_row();
+    for (Eigen::Index j = first; j < last; ++j) {
+      for (Eigen::Index m = 0; m < meshes; ++m) {
+        real[m] = scale_ * lines_(begin + j, m).real();
+        imaginary[m] = scale_ * lines_(begin + j, m).imag();
+      }
+      const auto re = transfer.middleCols(2 * meshes * (j - first), meshes);
+      const auto im = transfer.middleCols(2 * meshes * (j - first) + meshes, meshes);
+      sum.noalias() = re.lazyProduct(real) - im.lazyProduct(imaginary);
+      imaginary_sum.noalias() = re.lazyProduct(imaginary) + im.lazyProduct(real);
+      for (Eigen::Index m = 0; m < meshes; ++m) lines_(begin + j, m) = Complex(sum[m], imaginary_sum[m]);
     }
-    const auto re = problem_.transfer.middleCols(2 * meshes * (j - 1), meshes);
-    const auto im = problem_.transfer.middleCols(2 * meshes * (j - 1) + meshes, meshes);
-    sum.noalias() = re.lazyProduct(real) - im.lazyProduct(imaginary);
-    imaginary_sum.noalias() = re.lazyProduct(imaginary) + im.lazyProduct(real);
-    for (Eigen::Index m = 0; m < meshes; ++m) lines_(j, m) = Complex(sum[m], imaginary_sum[m]);
+    lines_.row(begin + last).setZero();  // the sign of this line's rate is unknown: it is left out
   }
-  lines_.row(last).setZero();  // the sign of this line's rate is unknown: it is left out
-  for (Eigen::Index m = 0; m < meshes; ++m) transform_.inverse(lines_.col(m).data(), approach.col(m).data());
+  for (Eigen::Index m = 0; m < meshes; ++m) to_values(lines_.col(m).data(), approach.col(m).data());
 }
 
 Eigen::MatrixXd HarmonicBalance::rate_of(const Eigen::Ref<const Eigen::MatrixXd>& values) {
   Eigen::MatrixXd rate(values.rows(), values.cols());
-  const Eigen::Index last = samples() / 2;
-  const double scale = problem_.spacing / static_cast<double>(samples());
   for (Eigen::Index m = 0; m < values.cols(); ++m) {
-    transform_.forward(values.col(m).data(), line_.data());
-    for (Eigen::Index j = 0; j < last; ++j) line_[j] *= Complex(0, static_cast<double>(j) * scale);
-    line_[last] = 0;
-    transform_.inverse(line_.data(), rate.col(m).data());
+    to_lines(values.col(m).data(), line_.data());
+    line_.array() *= Complex(0, scale_) * rate_of_.array();
+    to_values(line_.data(), rate.col(m).data());
   }
   return rate;
 }
@@ -115,25 +182,57 @@ Eigen::MatrixXd HarmonicBalance::linear_solution(const Eigen::MatrixXd& start, c
   return loaded_ - approach;
 }
 
+void HarmonicBalance::at_deflection(const Eigen::VectorXd& deflection, Eigen::MatrixXd& approach,
+                                    Eigen::MatrixXd& rate) {
+  Eigen::MatrixXd of_row, rate_of_row;
+  meshes().at_deflection(deflection, of_row, rate_of_row);
+  approach = of_row.replicate(rows(), 1);
+  rate = rate_of_row.replicate(rows(), 1);
+  for (int row = 0; row < rows(); ++row) {
+    approach.middleRows(row * samples(), samples()).rowwise() += shift_.row(row);
+    rate.middleRows(row * samples(), samples()).rowwise() += shift_rate_.row(row);
+  }
+}
+
+void HarmonicBalance::forces(const Eigen::MatrixXd& approach, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force) {
+  if (rows() == 1) return meshes().evaluate(approach, rate, force);
+  force.resize(approach.rows(), approach.cols());
+  Eigen::MatrixXd of_row;
+  for (int row = 0; row < rows(); ++row) {
+    const Eigen::Index begin = row * samples();
+    meshes_[static_cast<std::size_t>(row)].evaluate(approach.middleRows(begin, samples()).rowwise() - shift_.row(row),
+                                                    rate.middleRows(begin, samples()).rowwise() - shift_rate_.row(row),
+                                                    of_row);
+    force.middleRows(begin, samples()) = of_row;
+  }
+}
+
+Eigen::MatrixXd HarmonicBalance::force_change(const Eigen::MatrixXd& change) const {
+  Eigen::MatrixXd force(change.rows(), change.cols());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(change.cols());
+  for (int row = 0; row < rows(); ++row) {
+    const Eigen::Index begin = row * samples();
+    meshes_[static_cast<std::size_t>(row)].apply_tangent(change.middleRows(begin, samples()), none,
+                                                         force.middleRows(begin, samples()));
+  }
+  return force;
+}
+
 void HarmonicBalance::residual(const Eigen::Ref<const Eigen::MatrixXd>& approach, Eigen::Ref<Eigen::MatrixXd> result) {
-  const Eigen::Index last = samples() / 2;
-  const double scale = problem_.spacing / static_cast<double>(samples());
   forward(approach, approach_lines_);
   rate_.resize(approach.rows(), approach.cols());
   for (Eigen::Index m = 0; m < approach.cols(); ++m) {
-    for (Eigen::Index j = 0; j < last; ++j)
-      line_[j] = approach_lines_(j, m) * Complex(0, static_cast<double>(j) * scale);
-    line_[last] = 0;
-    transform_.inverse(line_.data(), rate_.col(m).data());
+    line_ = approach_lines_.col(m).array() * Complex(0, scale_) * rate_of_.array();
+    to_values(line_.data(), rate_.col(m).data());
   }
-  meshes_.evaluate(approach, rate_, force_);
+  forces(approach, rate_, force_);
   forward(force_, lines_);
   for (Eigen::Index m = 0; m < approach.cols(); ++m) {
-    const double k = problem_.mean_stiffness[m], c = problem_.system.meshes()[m].damping * problem_.spacing;
-    for (Eigen::Index j = 0; j < last; ++j)
-      lines_(j, m) -= Complex(k, c * static_cast<double>(j)) * approach_lines_(j, m);
+    const double k = problem_.mean_stiffness[m], c = problem_.system.meshes()[m].damping;
+    for (Eigen::Index i = 0; i < lines_.rows(); ++i)
+      lines_(i, m) -= Complex(k, c * rate_of_[i]) * approach_lines_(i, m);
   }
-  approach_lines_.topRows(last) = lines_.topRows(last) / static_cast<double>(samples());  // for the motion
+  approach_lines_ = scale_ * lines_;  // for the motion
   respond(result);
   for (Eigen::Index m = 0; m < approach.cols(); ++m) result.col(m) += approach.col(m) - loaded_.col(m);
 }
@@ -141,52 +240,112 @@ void HarmonicBalance::residual(const Eigen::Ref<const Eigen::MatrixXd>& approach
 void HarmonicBalance::apply_derivative(const Eigen::Ref<const Eigen::MatrixXd>& change,
                                        Eigen::Ref<Eigen::MatrixXd> result) {
   // `result` holds the change of the forces first.
-  meshes_.apply_tangent(change, problem_.mean_stiffness, result);
+  for (int row = 0; row < rows(); ++row) {
+    const Eigen::Index begin = row * samples();
+    meshes_[static_cast<std::size_t>(row)].apply_tangent(change.middleRows(begin, samples()), problem_.mean_stiffness,
+                                                         result.middleRows(begin, samples()));
+  }
+  Eigen::VectorXd beyond(change.rows());
   for (Eigen::Index m = 0; m < change.cols(); ++m) {
     const double c = problem_.system.meshes()[m].damping;
-    if ((meshes_.damping().col(m).array() != c).any())
-      result.col(m).array() += (meshes_.damping().col(m).array() - c) * rate_of(change.col(m)).array();
+    for (int row = 0; row < rows(); ++row)
+      beyond.segment(row * samples(), samples()) = meshes_[static_cast<std::size_t>(row)].damping().col(m).array() - c;
+    if (beyond.any()) result.col(m).array() += beyond.array() * rate_of(change.col(m)).array();
   }
   forward(result, lines_);
   respond(result);
   result += change;
 }
 
-Eigen::MatrixXd HarmonicBalance::refined(const Eigen::MatrixXd& values, Eigen::Index factor) {
-  const Eigen::Index coarse = values.rows(), fine = factor * coarse;
+Eigen::MatrixXd HarmonicBalance::refined(const Eigen::MatrixXd& values, Eigen::Index factor, int rows) {
+  const Eigen::Index coarse = values.rows() / rows, fine = factor * coarse;
   const RealTransform from(static_cast<int>(coarse)), to(static_cast<int>(fine));
   Eigen::VectorXcd line(fine / 2 + 1);
-  Eigen::MatrixXd result(fine, values.cols());
+  Eigen::MatrixXd result(fine * rows, values.cols());
+  for (Eigen::Index m = 0; m < values.cols(); ++m)
+    for (int row = 0; row < rows; ++row) {
+      from.forward(values.col(m).data() + row * coarse, line.data());
+      line.tail(line.size() - coarse / 2).setZero();
+      line.head(coarse / 2) /= static_cast<double>(coarse);
+      to.inverse(line.data(), result.col(m).data() + row * fine);
+    }
+  return result;
+}
+
+namespace {
+
+/// Amplitudes c_l of a function of the second angle, l = 0 ... (rows - 1)/2, for every sample of the first one (samples
+/// x amplitudes): c_0 + 2 Re sum c_l exp(i l angle).
+Eigen::MatrixXcd amplitudes_over_rows(const Eigen::Ref<const Eigen::VectorXd>& values, int rows) {
+  const Eigen::Index samples = values.size() / rows;
+  const auto of_rows = values.reshaped(samples, rows);
+  Eigen::MatrixXcd result(samples, (rows + 1) / 2);
+  for (int l = 0; l < result.cols(); ++l) {
+    Eigen::VectorXcd turn(rows);
+    for (int i = 0; i < rows; ++i) turn[i] = std::polar(1.0 / rows, -2 * std::numbers::pi * ((l * i) % rows) / rows);
+    result.col(l) = of_rows * turn;
+  }
+  return result;
+}
+
+}  // namespace
+
+Eigen::MatrixXd HarmonicBalance::along(const Eigen::MatrixXd& values, Eigen::Index count) const {
+  if (rows() == 1) return values.replicate((count + values.rows() - 1) / values.rows(), 1).topRows(count);
+  const double angle = problem_.grid.second_rate * problem_.grid.period / static_cast<double>(samples());
+  Eigen::MatrixXd result(count, values.cols());
   for (Eigen::Index m = 0; m < values.cols(); ++m) {
-    from.forward(values.col(m).data(), line.data());
-    line.tail(line.size() - coarse / 2).setZero();
-    line.head(coarse / 2) /= static_cast<double>(coarse);
-    to.inverse(line.data(), result.col(m).data());
+    const Eigen::MatrixXcd amplitudes = amplitudes_over_rows(values.col(m), rows());
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::Index at = i % samples();
+      double value = amplitudes(at, 0).real();
+      for (Eigen::Index l = 1; l < amplitudes.cols(); ++l)
+        value += 2 * (amplitudes(at, l) * std::polar(1.0, static_cast<double>(l * i) * angle)).real();
+      result(i, m) = value;
+    }
+  }
+  return result;
+}
+
+Eigen::MatrixXd HarmonicBalance::with_rows(const Eigen::MatrixXd& values, int more) const {
+  Eigen::MatrixXd result(samples() * more, values.cols());
+  for (Eigen::Index m = 0; m < values.cols(); ++m) {
+    const Eigen::MatrixXcd amplitudes = amplitudes_over_rows(values.col(m), rows());
+    for (int row = 0; row < more; ++row) {
+      auto part = result.col(m).segment(row * samples(), samples());
+      part = amplitudes.col(0).real();
+      for (Eigen::Index l = 1; l < amplitudes.cols(); ++l)
+        part +=
+            2 *
+            (amplitudes.col(l) * std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(l * row) / more)).real();
+    }
   }
   return result;
 }
 
 void HarmonicBalance::motion(Eigen::MatrixXd& displacement, Eigen::MatrixXd& velocity) {
-  const Eigen::Index last = samples() / 2;
+  const Eigen::Index last = samples() / 2, total = samples() * rows();
   const auto& response = problem_.response;
-  Eigen::MatrixXcd amplitudes =
-      response.displacements(problem_.spacing, -approach_lines_.middleRows(1, last - 1).transpose());
-  for (const auto& load : problem_.load_lines) amplitudes.col(load.line - 1) += load.displacement;
+  Eigen::MatrixXcd amplitudes(problem_.system.dofs(), lines_.rows());
+  amplitudes.setZero();
+  for (int l = 0; l < rows(); ++l) {
+    const Eigen::Index first = l == 0 ? 1 : 0, begin = l * lines_of_row() + first;
+    amplitudes.middleCols(begin, last - first) = response.displacements(
+        rate_of_.segment(begin, last - first), -approach_lines_.middleRows(begin, last - first).transpose());
+  }
+  for (const auto& load : problem_.load_lines) amplitudes.col(load.line) += load.displacement;
   const Eigen::VectorXd mean = response.static_displacement(
       problem_.system.load() - response.mesh_vectors() * approach_lines_.row(0).real().transpose());
-  displacement.resize(amplitudes.rows(), samples());
-  velocity.resize(amplitudes.rows(), samples());
-  Eigen::VectorXd values(samples());
+  amplitudes.col(0) = mean.cast<Complex>();
+  displacement.resize(amplitudes.rows(), total);
+  velocity.resize(amplitudes.rows(), total);
+  Eigen::VectorXd values(total);
   for (Eigen::Index i = 0; i < amplitudes.rows(); ++i) {
-    line_[0] = mean[i];
-    line_[last] = 0;
-    line_.segment(1, last - 1) = amplitudes.row(i);
-    transform_.inverse(line_.data(), values.data());
+    line_ = amplitudes.row(i).transpose();
+    to_values(line_.data(), values.data());
     displacement.row(i) = values;
-    line_[0] = line_[last] = 0;
-    for (Eigen::Index j = 1; j < last; ++j)
-      line_[j] = amplitudes(i, j - 1) * Complex(0, static_cast<double>(j) * problem_.spacing);
-    transform_.inverse(line_.data(), values.data());
+    line_ = amplitudes.row(i).transpose().array() * Complex(0, 1) * rate_of_.array();
+    to_values(line_.data(), values.data());
     velocity.row(i) = values;
   }
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <optional>
+#include <vector>
 
 #include "dynamics/steady_state/frequency_response.h"
 #include "dynamics/steady_state/real_transform.h"
@@ -9,19 +11,41 @@
 
 namespace annulus::dynamics {
 
-/// Data that all samplings of one period have in common.
+/// An error of a mesh that follows the second angle of a motion.
+struct SecondWave {
+  int mesh = 0;
+  HarmonicError error;  ///< of a rate that is a multiple of the second one
+};
+
+/// Where a motion is sampled: over one period, or over two angles that advance at rates without a short common period.
+/// The excitation repeats with the first angle; errors that do not are waves of the second one. The motion is a
+/// function of both, q(2 pi t / period, second_rate t), with lines at w = j 2 pi / period + l second_rate.
+struct BalanceGrid {
+  double period = 0;  ///< s, of the first angle
+  int rows = 1;       ///< values of the second angle, odd; 1: there is none
+  double second_rate = 0;
+  std::vector<SecondWave> waves{};
+
+  [[nodiscard]] double spacing() const;  ///< rad/s, of the first angle
+  /// Rate (rad/s) of line j of the first angle and line l of the second, which from (rows + 1) / 2 on is l - rows.
+  [[nodiscard]] double rate(Eigen::Index j, int l) const;
+};
+
+/// Data that all samplings of one motion have in common.
 struct BalanceProblem {
-  const LumpedSystem& system;
+  const LumpedSystem& system;  ///< without the errors of the second angle
   const FrequencyResponse& response;
-  Eigen::VectorXd mean_stiffness;   ///< of `response`
-  double spacing = 0;               ///< rad/s, between the lines
-  Eigen::MatrixXd transfer;         ///< of the meshes, at all lines of the finest sampling
+  Eigen::VectorXd mean_stiffness;  ///< of `response`
+  BalanceGrid grid;
+  /// Of the meshes, for each line of the second angle at all lines of the first one up to the finest sampling; without
+  /// that at w = 0.
+  std::vector<Eigen::MatrixXd> transfer;
   Eigen::MatrixXd static_transfer;  ///< at w = 0
   Eigen::VectorXd static_approach;  ///< of the constant load, at w = 0
   /// A load that changes in time, with what it does to the system with mean stiffness: amplitude x exp(i w t) + its
   /// conjugate.
   struct LoadLine {
-    Eigen::Index line = 0;          ///< w = line x spacing
+    Eigen::Index line = 0;          ///< of the first angle
     Eigen::VectorXcd displacement;  ///< m, one per DOF
   };
   std::vector<LoadLine> load_lines{};
@@ -29,15 +53,21 @@ struct BalanceProblem {
 /// The number of periods of a load in that of a motion with lines at multiples of `spacing` (rad/s); absent where it is
 /// no whole number from 1 to half the samples.
 [[nodiscard]] std::optional<Eigen::Index> load_line(const HarmonicLoad& load, double spacing, Eigen::Index samples);
-/// For a motion that repeats after `period` (s), with up to `samples`. System and response are referred to; the latter
-/// has this stiffness (N/m, one per mesh). All loads must have a load_line().
+/// With up to `samples` of the first angle. System and response are referred to; the latter has this stiffness (N/m,
+/// one per mesh). All loads must have a load_line().
 [[nodiscard]] BalanceProblem balance_problem(const LumpedSystem& system, const FrequencyResponse& response,
-                                             const Eigen::VectorXd& stiffness, double period, Eigen::Index samples);
+                                             const Eigen::VectorXd& stiffness, BalanceGrid grid, Eigen::Index samples);
+/// Transfer functions for more samples, where they are needed.
+void resolve(BalanceProblem& problem, Eigen::Index samples);
 
-/// Residual and derivative of the harmonic balance at one sampling. Matrices: samples x meshes.
+/// Residual and derivative of the harmonic balance at one sampling. Matrices: samples x meshes, those of the first
+/// angle in a row of the second one behind each other.
 class HarmonicBalance {
+  using Complex = std::complex<double>;
+
  public:
-  HarmonicBalance(const BalanceProblem& problem, double period, Eigen::Index samples);
+  /// `samples`: of the first angle.
+  HarmonicBalance(const BalanceProblem& problem, Eigen::Index samples);
 
   /// Solves the linear problem: approaches from forces F = k (approach - start) + c (rate - start rate) + `force`.
   [[nodiscard]] Eigen::MatrixXd linear_solution(const Eigen::MatrixXd& start, const Eigen::MatrixXd& start_rate,
@@ -49,24 +79,44 @@ class HarmonicBalance {
 
   /// Time derivative of a periodic function.
   [[nodiscard]] Eigen::MatrixXd rate_of(const Eigen::Ref<const Eigen::MatrixXd>& values);
-  /// The same function at `factor` times as many samples.
-  [[nodiscard]] static Eigen::MatrixXd refined(const Eigen::MatrixXd& values, Eigen::Index factor);
+  /// The same function at `factor` times as many samples of the first angle.
+  [[nodiscard]] static Eigen::MatrixXd refined(const Eigen::MatrixXd& values, Eigen::Index factor, int rows = 1);
+  /// Approaches and rates of deflections (m), one per mesh and the same everywhere.
+  void at_deflection(const Eigen::VectorXd& deflection, Eigen::MatrixXd& approach, Eigen::MatrixXd& rate);
+  /// Forces (N) of approaches (m) and rates (m/s); stores their derivatives.
+  void forces(const Eigen::MatrixXd& approach, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force);
+  /// Change of the forces with the approaches at the last `forces` or `residual`.
+  [[nodiscard]] Eigen::MatrixXd force_change(const Eigen::MatrixXd& change) const;
+  /// A function of both angles at `count` times of the first angle's spacing, from time 0.
+  [[nodiscard]] Eigen::MatrixXd along(const Eigen::MatrixXd& values, Eigen::Index count) const;
+  /// A function of both angles at more values of the second one.
+  [[nodiscard]] Eigen::MatrixXd with_rows(const Eigen::MatrixXd& values, int more) const;
   /// Displacement and velocity of all DOFs (DOFs x samples) at the last `residual`.
   void motion(Eigen::MatrixXd& displacement, Eigen::MatrixXd& velocity);
 
-  [[nodiscard]] SampledMeshes& meshes() { return meshes_; }
-  [[nodiscard]] Eigen::Index samples() const { return meshes_.samples(); }
+  /// Of the first row.
+  [[nodiscard]] SampledMeshes& meshes() { return meshes_.front(); }
+  [[nodiscard]] Eigen::Index samples() const { return meshes_.front().samples(); }  ///< of the first angle
+  [[nodiscard]] int rows() const { return problem_.grid.rows; }
 
  private:
+  [[nodiscard]] Eigen::Index lines_of_row() const { return samples() / 2 + 1; }
   /// Writes H times the forces whose spectra are in `lines_` to the samples.
   void respond(Eigen::Ref<Eigen::MatrixXd> approach);
   void forward(const Eigen::Ref<const Eigen::MatrixXd>& values, Eigen::MatrixXcd& lines);
+  void to_lines(const double* values, Complex* lines);
+  void to_values(Complex* lines, double* values);
+  enum class Sense { forward = -1, back = 1 };
+  void across_rows(Complex* lines, Sense sense);
 
   const BalanceProblem& problem_;
-  SampledMeshes meshes_;
+  std::vector<SampledMeshes> meshes_;  // one per row
   RealTransform transform_;
+  double scale_ = 0;                         // of both transforms one behind the other
+  Eigen::VectorXd rate_of_;                  // rad/s, of every line; 0 at the Nyquist lines, which are left out
+  Eigen::MatrixXd shift_, shift_rate_;       // errors of the second angle, rows x meshes
   Eigen::MatrixXcd lines_, approach_lines_;  // spectra, up to the Nyquist line, one column per mesh
-  Eigen::VectorXcd line_;
+  Eigen::VectorXcd line_, across_;
   Eigen::MatrixXd loaded_;  // approaches under the loads, with mean stiffness
   Eigen::MatrixXd rate_, force_;
 };

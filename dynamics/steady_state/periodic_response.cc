@@ -83,15 +83,16 @@ std::optional<Eigen::MatrixXd> quasi_static(const LumpedSystem& system, Harmonic
   }
 }
 
-void fill(PeriodicResponse& response, HarmonicBalance& balance, const Eigen::MatrixXd& approach) {
-  const Eigen::Index samples = balance.samples(), meshes = approach.cols();
+void fill(PeriodicResponse& response, SampledMeshes& meshes_of_window, const Eigen::MatrixXd& approach,
+          const Eigen::MatrixXd& rate) {
+  const Eigen::Index samples = approach.rows(), meshes = approach.cols();
   Eigen::MatrixXd force;
   std::vector<LumpedSystem::Contact> contact;
-  balance.meshes().evaluate_at_instants(approach, balance.rate_of(approach), force, contact);
+  meshes_of_window.evaluate_at_instants(approach, rate, force, contact);
   response.coarse_force = std::move(response.force);
   response.force = force.transpose();
   response.time.resize(samples);
-  for (Eigen::Index i = 0; i < samples; ++i) response.time[i] = balance.meshes().time(i);
+  for (Eigen::Index i = 0; i < samples; ++i) response.time[i] = meshes_of_window.time(i);
   const auto share = [&](Eigen::Index m, LumpedSystem::Contact state) {
     return static_cast<double>(std::count(contact.begin() + m * samples, contact.begin() + (m + 1) * samples, state)) /
            static_cast<double>(samples);
@@ -120,28 +121,13 @@ int samples_ahead(const FrequencyResponse& linear, double mesh_frequency, const 
   return ahead;
 }
 
-/// One iteration at the sampling of `finer`, with constant stiffness: harmonics beyond those of the solution come out
-/// with their own resonance.
-void look_ahead(HarmonicBalance& finer, const Eigen::MatrixXd& approach, PeriodicResponse& response) {
-  const Eigen::Index step = finer.samples() / approach.rows();
-  const Eigen::MatrixXd refined = HarmonicBalance::refined(approach, step);
-  Eigen::MatrixXd residual(refined.rows(), refined.cols()), change(refined.rows(), refined.cols());
-  finer.residual(refined, residual);
-  finer.meshes().apply_tangent(-residual, Eigen::VectorXd::Zero(refined.cols()), change);
-  response.finer_difference = change.cwiseAbs().maxCoeff();
-  response.finer_force = response.force + change(Eigen::seq(0, Eigen::last, step), Eigen::all).transpose();
-}
-
 bool wants_more_samples(const PeriodicResponse& response, const PeriodicOptions& options) {
   return response.converged && options.sampling_tolerance &&
          response.largest_difference() > *options.sampling_tolerance &&
          2 * response.samples_per_cycle <= options.max_samples_per_cycle;
 }
 
-}  // namespace
-
-PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
-                                   const PeriodicOptions& options) {
+void check(double period, int cycles, const PeriodicOptions& options, const LumpedSystem& system) {
   if (!(period > 0) || cycles < 1)
     throw InputError(fmt::format("a periodic response needs a positive period of whole cycles, not {} s and {} cycles",
                                  period, cycles));
@@ -154,6 +140,221 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
                     options.tolerance, options.max_iterations));
   require(!system.meshes().empty(),
           fmt::format("a periodic response needs meshes; the system has {} degrees of freedom alone", system.dofs()));
+}
+
+/// A harmonic balance from few samples to many. Matrices of the grid become windows of all mesh cycles.
+class Levels {
+ public:
+  /// `system`: with all errors; `reduced`: without those of the second angle. `first_cycles`: of the first angle.
+  Levels(const LumpedSystem& system, const LumpedSystem& reduced, BalanceGrid grid, int first_cycles, double period,
+         int cycles, const PeriodicOptions& options)
+      : system_(system),
+        reduced_(reduced),
+        options_(options),
+        grid_(std::move(grid)),
+        period_(period),
+        cycles_(cycles),
+        first_cycles_(first_cycles),
+        reference_(reference_of(system)) {}
+
+  PeriodicResponse solve() {
+    const Eigen::Index samples = samples_of(options_.samples_per_cycle);
+    // The first level has few samples, where iterations cost little. Each next one doubles them and starts close to its
+    // solution.
+    Eigen::Index coarsening = 2;
+    while (options_.samples_per_cycle % (2 * coarsening) == 0 && options_.samples_per_cycle / (2 * coarsening) >= 8)
+      coarsening *= 2;
+    SampledMeshes at_reference(reduced_, grid_.period, samples / coarsening);
+    at_reference.at_deflection(reference_.deflection, approach_, rate_);
+    at_reference.evaluate(approach_, rate_, force_);
+    mean_ = mean_tangents(reduced_, at_reference.tangent());
+    linear_.emplace(reduced_, mean_);
+    for (const auto& load : system_.harmonic_loads())
+      if (!load_line(load, grid_.spacing(), samples / coarsening)) {
+        response_.trouble =
+            fmt::format("a load that repeats after {:g} s does not fit a period of {:g} s with {} samples",
+                        2 * std::numbers::pi / std::abs(load.rate), grid_.period, samples / coarsening);
+        return std::move(response_);
+      }
+    problem_.emplace(balance_problem(reduced_, *linear_, mean_, grid_, samples));
+    first_level(samples / coarsening, samples);
+    if (grid_.waves.empty() || settle_rows(samples / coarsening))
+      for (Eigen::Index level = samples / coarsening; level <= samples; level *= 2) next_level(level, samples);
+    set_coarse_difference(response_, options_.samples_per_cycle);
+    response_.coarse_difference = std::max(response_.coarse_difference, rows_difference_);
+    if (response_.converged && options_.sampling_tolerance) refine();
+    return std::move(response_);
+  }
+
+ private:
+  static constexpr double rough_tolerance = 1e-3, out_of_reach = 0.1;
+
+  [[nodiscard]] Eigen::Index samples_of(int per_cycle) const {
+    return static_cast<Eigen::Index>(first_cycles_) * per_cycle;
+  }
+  /// Over the whole window.
+  [[nodiscard]] Eigen::Index in_window(Eigen::Index samples) const { return samples / first_cycles_ * cycles_; }
+
+  PeriodicOptions options_at(Eigen::Index level, Eigen::Index samples) const {
+    auto options = options_;
+    // Levels below the two finest only provide a start.
+    if (4 * level <= samples) options.tolerance = std::max(options.tolerance, rough_tolerance);
+    // Where a coarse sampling fails, a finer one would fail or cost too much: the last iterate is returned as it is.
+    if (failed_) options.max_iterations = 0;
+    return options;
+  }
+
+  void first_level(Eigen::Index level, Eigen::Index samples) {
+    HarmonicBalance balance(*problem_, level);
+    balance.at_deflection(reference_.deflection, approach_, rate_);
+    balance.forces(approach_, rate_, force_);
+    approach_ = balance.linear_solution(approach_, rate_, force_);
+    const auto options = options_at(level, samples);
+    approach_ = solve_balance(balance, approach_, reference_.scale, options, response_);
+    if (!response_.converged && grid_.waves.empty()) {
+      if (const auto start = quasi_static(system_, balance)) {
+        const auto before = std::exchange(response_, {});
+        auto again = solve_balance(balance, *start, reference_.scale, options, response_);
+        response_.newton_iterations += before.newton_iterations;
+        response_.linear_iterations += before.linear_iterations;
+        if (response_.residual < before.residual)
+          approach_ = std::move(again);
+        else
+          response_ = before;
+      }
+    }
+    solved_ = level;
+    failed_ = response_.residual > std::max(options.tolerance, level < samples ? out_of_reach : 0.0);
+  }
+
+  /// Values of the second angle until more of them change nothing. Returns whether so many are worth it.
+  bool settle_rows(Eigen::Index level) {
+    Eigen::MatrixXd before;
+    const double enough = options_.sampling_tolerance.value_or(0) > 0
+                              ? *options_.sampling_tolerance / 3
+                              : rough_tolerance * reference_.scale * mean_.maxCoeff();
+    for (;;) {
+      HarmonicBalance balance(*problem_, level);
+      Eigen::MatrixXd residual(approach_.rows(), approach_.cols());
+      balance.residual(approach_, residual);
+      balance.forces(approach_, balance.rate_of(approach_), force_);
+      const Eigen::MatrixXd force = balance.along(force_, in_window(level));
+      if (before.size() > 0) rows_difference_ = (force - before).cwiseAbs().maxCoeff();
+      if (failed_ || (before.size() > 0 && rows_difference_ <= enough)) return true;
+      before = force;
+      const int rows = 2 * grid_.rows - 1;
+      if (2 * rows * first_cycles_ > cycles_) {
+        response_.converged = false;
+        response_.trouble = fmt::format(
+            "{} values of the second angle change forces by {:.2g} N, and more take as long as a whole period",
+            grid_.rows, rows_difference_);
+        failed_ = true;
+        return true;
+      }
+      approach_ = balance.with_rows(approach_, rows);
+      grid_.rows = rows;
+      problem_.emplace(balance_problem(reduced_, *linear_, mean_, grid_, samples_of(options_.samples_per_cycle)));
+      HarmonicBalance finer(*problem_, level);
+      auto options = options_;
+      options.tolerance = std::max(options.tolerance, rough_tolerance / 10);
+      approach_ = solve_balance(finer, approach_, reference_.scale, options, response_);
+      failed_ = !response_.converged;
+    }
+  }
+
+  void next_level(Eigen::Index level, Eigen::Index samples) {
+    HarmonicBalance balance(*problem_, level);
+    if (level != solved_) {
+      approach_ = HarmonicBalance::refined(approach_, 2, grid_.rows);
+      const auto options = options_at(level, samples);
+      approach_ = solve_balance(balance, approach_, reference_.scale, options, response_);
+      failed_ = failed_ || response_.residual > std::max(options.tolerance, level < samples ? out_of_reach : 0.0);
+    }
+    if (2 * level >= samples) fill_window(response_, balance);
+    if (level == samples) fill_motion(response_, balance);
+  }
+
+  void fill_window(PeriodicResponse& response, HarmonicBalance& balance) {
+    const Eigen::MatrixXd rate = balance.rate_of(approach_);
+    if (grid_.waves.empty()) return fill(response, balance.meshes(), approach_, rate);
+    const Eigen::Index count = in_window(balance.samples());
+    SampledMeshes window(system_, period_, count);
+    fill(response, window, balance.along(approach_, count), balance.along(rate, count));
+  }
+
+  void fill_motion(PeriodicResponse& response, HarmonicBalance& balance) {
+    if (balance.rows() == 1) return balance.motion(response.displacement, response.velocity);
+    Eigen::MatrixXd residual(approach_.rows(), approach_.cols()), displacement, velocity;
+    balance.residual(approach_, residual);
+    balance.motion(displacement, velocity);
+    const Eigen::Index count = in_window(balance.samples());
+    response.displacement = balance.along(displacement.transpose(), count).transpose();
+    response.velocity = balance.along(velocity.transpose(), count).transpose();
+  }
+
+  /// One iteration at more samples, with constant stiffness: harmonics beyond those of the solution come out with their
+  /// own resonance.
+  void look_ahead(PeriodicResponse& found) {
+    found.finer_force.resize(0, 0);
+    found.finer_difference = 0;
+    const Eigen::Index finest = samples_of(samples_ahead(*linear_, cycles_ / period_, options_));
+    const Eigen::Index samples = approach_.rows() / grid_.rows;
+    if (samples >= finest) return;
+    resolve(*problem_, finest);
+    HarmonicBalance finer(*problem_, finest);
+    const Eigen::Index step = finest / samples;
+    const Eigen::MatrixXd refined = HarmonicBalance::refined(approach_, step, grid_.rows);
+    Eigen::MatrixXd residual(refined.rows(), refined.cols());
+    finer.residual(refined, residual);
+    const Eigen::MatrixXd change = finer.force_change(-residual);
+    found.finer_difference = change.cwiseAbs().maxCoeff();
+    const HarmonicBalance coarse(*problem_, samples);
+    found.finer_force =
+        found.force +
+        coarse.along(change(Eigen::seq(0, Eigen::last, step), Eigen::all), in_window(samples)).transpose();
+  }
+
+  void refine() {
+    look_ahead(response_);
+    while (wants_more_samples(response_, options_)) {
+      const int per_cycle = 2 * response_.samples_per_cycle;
+      const Eigen::Index level = samples_of(per_cycle);
+      resolve(*problem_, level);
+      HarmonicBalance balance(*problem_, level);
+      approach_ = HarmonicBalance::refined(approach_, 2, grid_.rows);
+      auto finer = response_;
+      approach_ = solve_balance(balance, approach_, reference_.scale, options_, finer);
+      if (!finer.converged) break;
+      fill_window(finer, balance);
+      fill_motion(finer, balance);
+      set_coarse_difference(finer, per_cycle);
+      finer.coarse_difference = std::max(finer.coarse_difference, rows_difference_);
+      look_ahead(finer);
+      response_ = std::move(finer);
+    }
+  }
+
+  const LumpedSystem &system_, &reduced_;
+  const PeriodicOptions& options_;
+  BalanceGrid grid_;
+  double period_;
+  int cycles_, first_cycles_;
+  Reference reference_;
+  Eigen::MatrixXd approach_, rate_, force_;
+  Eigen::VectorXd mean_;
+  std::optional<FrequencyResponse> linear_;
+  std::optional<BalanceProblem> problem_;
+  PeriodicResponse response_;
+  Eigen::Index solved_ = 0;
+  double rows_difference_ = 0;  // N, of half as many values of the second angle
+  bool failed_ = false;
+};
+
+}  // namespace
+
+PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
+                                   const PeriodicOptions& options) {
+  check(period, cycles, options, system);
   if (!system.has_fixed_directions()) {
     PeriodicResponse refused;
     refused.trouble = system.has_friction()
@@ -161,97 +362,22 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
                           : "mesh vectors that move with the mesh (elastic modes of the ring) need time integration";
     return refused;
   }
+  return Levels(system, system, {.period = period}, cycles, period, cycles, options).solve();
+}
 
-  const Eigen::Index samples = static_cast<Eigen::Index>(cycles) * options.samples_per_cycle;
-  // The first level has few samples, where iterations cost little. Each next one doubles them and starts close to its
-  // solution.
-  constexpr double rough_tolerance = 1e-3, out_of_reach = 0.1;
-  Eigen::Index coarsening = 2;
-  while (options.samples_per_cycle % (2 * coarsening) == 0 && options.samples_per_cycle / (2 * coarsening) >= 8)
-    coarsening *= 2;
-  const Reference reference = reference_of(system);
-  Eigen::MatrixXd approach, rate, force;
-  SampledMeshes at_reference(system, period, samples / coarsening);
-  at_reference.at_deflection(reference.deflection, approach, rate);
-  at_reference.evaluate(approach, rate, force);
-  const Eigen::VectorXd mean = mean_tangents(system, at_reference.tangent());
-
-  const FrequencyResponse linear(system, mean);
-  const double spacing = 2 * std::numbers::pi / period;
-  for (const auto& load : system.harmonic_loads())
-    if (!load_line(load, spacing, samples / coarsening)) {
-      PeriodicResponse refused;
-      refused.trouble = fmt::format("a load that repeats after {:g} s does not fit a period of {:g} s with {} samples",
-                                    2 * std::numbers::pi / std::abs(load.rate), period, samples / coarsening);
-      return refused;
-    }
-  auto problem = balance_problem(system, linear, mean, period, samples);
-
-  PeriodicResponse response;
-  approach.resize(0, 0);
-  bool failed = false;
-  for (Eigen::Index level = samples / coarsening; level <= samples; level *= 2) {
-    HarmonicBalance balance(problem, period, level);
-    if (approach.size() == 0) {
-      balance.meshes().at_deflection(reference.deflection, approach, rate);
-      balance.meshes().evaluate(approach, rate, force);
-      approach = balance.linear_solution(approach, rate, force);
-    } else {
-      approach = HarmonicBalance::refined(approach, 2);
-    }
-    auto level_options = options;
-    // Levels below the two finest only provide a start.
-    if (4 * level <= samples) level_options.tolerance = std::max(options.tolerance, rough_tolerance);
-    // Where a coarse sampling fails, a finer one would fail or cost too much: the last iterate is returned as it is.
-    if (failed) level_options.max_iterations = 0;
-    approach = solve_balance(balance, approach, reference.scale, level_options, response);
-    if (level == samples / coarsening && !response.converged) {
-      if (const auto start = quasi_static(system, balance)) {
-        const auto before = std::exchange(response, {});
-        auto again = solve_balance(balance, *start, reference.scale, level_options, response);
-        response.newton_iterations += before.newton_iterations;
-        response.linear_iterations += before.linear_iterations;
-        if (response.residual < before.residual)
-          approach = std::move(again);
-        else
-          response = before;
-      }
-    }
-    failed = failed || response.residual > std::max(level_options.tolerance, level < samples ? out_of_reach : 0.0);
-    if (2 * level >= samples) fill(response, balance, approach);
-    if (level == samples) balance.motion(response.displacement, response.velocity);
-  }
-  set_coarse_difference(response, options.samples_per_cycle);
-  if (!response.converged || !options.sampling_tolerance) return response;
-  const int ahead = samples_ahead(linear, cycles / period, options);
-  const Eigen::Index finest = static_cast<Eigen::Index>(cycles) * ahead;
-  const auto resolve = [&](Eigen::Index level) {
-    if (problem.transfer.cols() < 2 * mean.size() * (level / 2 - 1))
-      problem.transfer = linear.mesh_transfer(spacing, level / 2 - 1);
-  };
-  const auto look = [&](PeriodicResponse& found) {
-    found.finer_force.resize(0, 0);
-    found.finer_difference = 0;
-    if (approach.rows() >= finest) return;
-    resolve(finest);
-    HarmonicBalance finer(problem, period, finest);
-    look_ahead(finer, approach, found);
-  };
-  look(response);
-  while (wants_more_samples(response, options)) {
-    const Eigen::Index level = 2 * response.time.size();
-    resolve(level);
-    HarmonicBalance balance(problem, period, level);
-    approach = HarmonicBalance::refined(approach, 2);
-    auto finer = response;
-    approach = solve_balance(balance, approach, reference.scale, options, finer);
-    if (!finer.converged) break;
-    fill(finer, balance, approach);
-    balance.motion(finer.displacement, finer.velocity);
-    set_coarse_difference(finer, 2 * response.samples_per_cycle);
-    look(finer);
-    response = std::move(finer);
-  }
+PeriodicResponse two_frequency_response(const LumpedSystem& system, const TwoFrequencies& angles, double period,
+                                        int cycles, const PeriodicOptions& options) {
+  check(period, cycles, options, system);
+  const auto reduced = without_waves(system, angles.waves);
+  constexpr int rows = 3;
+  auto response = Levels(system, reduced,
+                         {.period = period / cycles * angles.cycles,
+                          .rows = rows,
+                          .second_rate = angles.second_rate,
+                          .waves = angles.waves},
+                         angles.cycles, period, cycles, options)
+                      .solve();
+  response.method = PeriodicMethod::two_frequencies;
   return response;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dynamics/steady_state/response_window.h"
+#include "dynamics/steady_state/two_frequencies.h"
 #include "dynamics/system/lumped_system.h"
 
 namespace annulus::dynamics {
@@ -25,7 +26,8 @@ struct PeriodicOptions {
 
 enum class PeriodicMethod {
   harmonic_balance,
-  piecewise,  ///< exact, for systems whose stiffness is constant between jumps, while no mesh loses contact
+  two_frequencies,  ///< harmonic balance over two angles
+  piecewise,        ///< exact, for systems whose stiffness is constant between jumps, while no mesh loses contact
 };
 
 /// Course of the search for a periodic solution without time integration.
@@ -71,5 +73,12 @@ struct PeriodicResponse : PeriodicSolution, ResponseWindow {
 /// the linear part is singular.
 [[nodiscard]] PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
                                                  const PeriodicOptions& options = {});
+
+/// The same over two angles [KrackGross2019, sect. 2.6], as a response over one `period` of the whole: the motion is a
+/// function of both, and the forces are evaluated in time where the period passes. Values of the second angle are added
+/// until they change no force by more than a third of the sampling tolerance; what they changed last counts as a
+/// difference. It does not converge where they would take longer than a whole period.
+[[nodiscard]] PeriodicResponse two_frequency_response(const LumpedSystem& system, const TwoFrequencies& angles,
+                                                      double period, int cycles, const PeriodicOptions& options = {});
 
 }  // namespace annulus::dynamics

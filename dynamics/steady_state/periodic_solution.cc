@@ -80,7 +80,12 @@ PeriodicOptions balance_options(const SteadyProblem& problem, const SimulationOp
 PeriodicSearch solve_harmonic_balance(const LumpedSystem& system, const SteadyProblem& problem, int cycles,
                                       const SimulationOptions& options) {
   const int period = problem.period_in_cycles;
-  auto periodic = periodic_response(system, period / problem.mesh_frequency, period, balance_options(problem, options));
+  const auto balance = balance_options(problem, options);
+  const double duration = period / problem.mesh_frequency;
+  PeriodicResponse periodic;
+  if (const auto angles = two_frequencies(system, problem.mesh_frequency, period))
+    periodic = two_frequency_response(system, *angles, duration, period, balance);
+  if (!periodic.converged) periodic = periodic_response(system, duration, period, balance);
   // Where the solution with half the samples already satisfies the finer ones, no step is taken and only the residual
   // is known of the error.
   periodic.sampling_difference = std::max(periodic.largest_difference() / problem.force_scale, periodic.residual);
@@ -132,8 +137,7 @@ double growth_per_cycle(const LumpedSystem& system, double mesh_frequency, const
 /// Does the motion depart from the solution of a harmonic balance? It may do so too slowly for one window to show.
 void examine_stability(const LumpedSystem& system, const SteadyProblem& problem, PeriodicSearch& search) {
   auto& report = *search.report;
-  if (search.loses_contact() || report.method != PeriodicMethod::harmonic_balance || !system.has_fixed_directions())
-    return;
+  if (search.loses_contact() || report.method == PeriodicMethod::piecewise || !system.has_fixed_directions()) return;
   report.largest_multiplier = growth_per_cycle(system, problem.mesh_frequency, search.windows->fine);
   // A thousandfold growth over a thousand cycles would pass unseen; double zero eigenvalues are 1e-7 from 1.
   constexpr double still = 1e-4;

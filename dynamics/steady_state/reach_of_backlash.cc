@@ -69,7 +69,7 @@ double bound_over_deflection(const LumpedSystem& system, const SteadyProblem& pr
   for (const auto& mode : modes(system, tangent).modes) {
     if (mode.frequency == 0) continue;
     const double own_rate = 2 * std::numbers::pi * mode.frequency;
-    const Eigen::MatrixXd at = linear.mesh_transfer(own_rate, 1);
+    const Eigen::MatrixXd at = linear.mesh_transfer(Eigen::VectorXd::Constant(1, own_rate));
     const Eigen::MatrixXcd transfer = at.leftCols(count) + std::complex<double>(0, 1) * at.rightCols(count);
     const double line = mode.frequency * period;
     const auto first = static_cast<Eigen::Index>(std::max(1.0, std::ceil(lowest * line)));

@@ -342,7 +342,7 @@ TimeSeries series_of(const LumpedSystem& system, ResponseWindow window) {
 int enough_samples(int window_cycles) { return window_cycles > long_window ? 16 : 32; }
 
 bool may_miss(const LumpedSystem& system, const PeriodicSolution& found, double beyond) {
-  return found.method == PeriodicMethod::harmonic_balance &&
+  return found.method != PeriodicMethod::piecewise &&
          (found.sampling_difference > beyond || std::isfinite(system.next_jump(0)));
 }
 

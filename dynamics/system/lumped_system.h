@@ -282,6 +282,8 @@ class LumpedSystemBuilder {
   void add_spring(const LinearForm& coordinate, double stiffness, double damping, const std::string& name = {});
   /// Adds damping (N s/m): C += value row column^T. The sum has to be symmetric.
   void add_damping(const LinearForm& row, const LinearForm& column, double value);
+  /// Gives a mesh that was added before other errors.
+  void set_errors(int mesh, std::vector<HarmonicError> errors);
   /// Makes the damper of a mesh that was added before stronger, by N s/m.
   void add_mesh_damping(int mesh, double damping);
   /// Adds a force (N/m x `column`) on `row`: K_Omega += value row column^T.

@@ -128,6 +128,10 @@ void LumpedSystemBuilder::add_damping(const LinearForm& row, const LinearForm& c
   damping_.push_back({row, column, value});
 }
 
+void LumpedSystemBuilder::set_errors(int mesh, std::vector<HarmonicError> errors) {
+  meshes_.at(static_cast<std::size_t>(mesh)).errors = std::move(errors);
+}
+
 void LumpedSystemBuilder::add_mesh_damping(int mesh, double damping) {
   meshes_.at(static_cast<std::size_t>(mesh)).damping += damping;
 }

@@ -53,6 +53,7 @@ using MeshExcitation = std::variant<ConstantStiffness, HarmonicStiffness, Rectan
 /// Part of the transmission error of a mesh: amount x sin(rate t + phase), in m, rad/s and rad.
 struct HarmonicError {
   double amount = 0, rate = 0, phase = 0;
+  bool operator==(const HarmonicError&) const = default;
 };
 
 /// Part of the transmission error of a mesh that follows its teeth, m: the curve at `frequency` t + `phase_offset` mesh

@@ -301,8 +301,9 @@ BOOST_AUTO_TEST_CASE(transfer_functions_are_those_of_the_matrices) {
   BOOST_TEST(response.by_eigenvalues());
   const double spacing = 700;
   const Eigen::Index lines = 40;
-  const auto transfer = response.mesh_transfer(spacing, lines);
-  const Eigen::MatrixXcd q = response.displacements(spacing, Eigen::MatrixXcd::Constant(10, lines, Complex(1, 0.3)));
+  const Eigen::VectorXd rates = Eigen::VectorXd::LinSpaced(lines, spacing, lines * spacing);
+  const auto transfer = response.mesh_transfer(rates);
+  const Eigen::MatrixXcd q = response.displacements(rates, Eigen::MatrixXcd::Constant(10, lines, Complex(1, 0.3)));
   for (const Eigen::Index j : {0, 7, 39}) {
     const double w = static_cast<double>(j + 1) * spacing;
     Eigen::MatrixXcd dynamic =
@@ -332,7 +333,7 @@ BOOST_AUTO_TEST_CASE(transfer_functions_are_those_of_the_matrices) {
   const FrequencyResponse fallback(critical.system(), Eigen::VectorXd::Constant(1, 5e4));
   const double w = 100;
   const Complex expected = 1.0 / Complex(5e4 - 2 * w * w, w * critical.mesh.damping);
-  const auto found = fallback.mesh_transfer(w, 1);
+  const auto found = fallback.mesh_transfer(Eigen::VectorXd::Constant(1, w));
   BOOST_TEST(std::abs(Complex(found(0, 0), found(0, 1)) - expected) <= 1e-9 * std::abs(expected));
 }
 
