@@ -66,7 +66,7 @@ ANNULUS_MEMBERS(dynamics::Rotor, name, on, inertia, shaft_stiffness, shaft_dampi
 ANNULUS_MEMBERS(dynamics::ShaftResult, name, on, nominal_torque, mean_torque, smallest_torque, largest_torque,
                 contact_loss);
 ANNULUS_MEMBERS(dynamics::PeriodicSolution, method, converged, trouble, residual, newton_iterations, linear_iterations,
-                sampling_difference, largest_multiplier);
+                sampling_difference, largest_multiplier, longer_angle);
 ANNULUS_MEMBERS(dynamics::IntegratorChoice, method, reason, stability_step, implicit_step, explicit_steps,
                 least_damping);
 ANNULUS_MEMBERS(dynamics::EnergyBalance, supplied, dissipated, change, relative);

@@ -19,9 +19,10 @@ std::string solution_text(const dynamics::SteadyOutcome& found) {
   std::string text = "time integration";
   if (found.periodic) {
     const auto& direct = *found.periodic;
-    const std::string method = direct.method == dynamics::PeriodicMethod::piecewise
-                                   ? "exact solution between jumps of the stiffness"
-                                   : "harmonic balance";
+    const std::string method =
+        direct.method == dynamics::PeriodicMethod::piecewise         ? "exact solution between jumps of the stiffness"
+        : direct.method == dynamics::PeriodicMethod::two_frequencies ? "harmonic balance with two base frequencies"
+                                                                     : "harmonic balance";
     if (!direct.converged)
       text += ": the " + method + " failed (" + direct.trouble + ")";
     else if (!found.confirmed && found.total_cycles > 0)
@@ -29,7 +30,10 @@ std::string solution_text(const dynamics::SteadyOutcome& found) {
     else
       text = fmt::format("{} ({} Newton iterations; other samplings change a force by {:.1e} of the mean){}", method,
                          direct.newton_iterations, direct.sampling_difference,
-                         found.confirmed ? ", confirmed by time integration over one window" : "");
+                         !found.confirmed          ? ""
+                         : direct.longer_angle > 0 ? fmt::format(", confirmed by time integration over {} mesh cycles",
+                                                                 std::min(found.window_cycles, 2 * direct.longer_angle))
+                                                   : ", confirmed by time integration over one window");
   }
   return found.integrator ? text + ". Integrator: " + found.integrator->reason : text;
 }

@@ -378,6 +378,9 @@ PeriodicResponse two_frequency_response(const LumpedSystem& system, const TwoFre
                          angles.cycles, period, cycles, options)
                       .solve();
   response.method = PeriodicMethod::two_frequencies;
+  response.longer_angle =
+      std::max(angles.cycles,
+               static_cast<int>(std::lround(2 * std::numbers::pi * cycles / period / std::abs(angles.second_rate))));
   return response;
 }
 

@@ -43,6 +43,7 @@ struct PeriodicSolution {
   /// Largest modulus of a Floquet multiplier: over the period of a piecewise solution, over a mesh cycle of a harmonic
   /// balance whose stability was examined.
   std::optional<double> largest_multiplier{};
+  int longer_angle = 0;  ///< of two frequencies: mesh cycles after which the slower of both angles repeats
 };
 
 /// Periodic steady state over one period from time 0, with the course of its search.

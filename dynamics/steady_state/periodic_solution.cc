@@ -83,8 +83,8 @@ PeriodicSearch solve_harmonic_balance(const LumpedSystem& system, const SteadyPr
   const auto balance = balance_options(problem, options);
   const double duration = period / problem.mesh_frequency;
   PeriodicResponse periodic;
-  if (const auto angles = two_frequencies(system, problem.mesh_frequency, period))
-    periodic = two_frequency_response(system, *angles, duration, period, balance);
+  const auto angles = period > long_window ? two_frequencies(system, problem.mesh_frequency, period) : std::nullopt;
+  if (angles) periodic = two_frequency_response(system, *angles, duration, period, balance);
   if (!periodic.converged) periodic = periodic_response(system, duration, period, balance);
   // Where the solution with half the samples already satisfies the finer ones, no step is taken and only the residual
   // is known of the error.

@@ -70,6 +70,7 @@ IntegratorOptions resolved_integrator(const LumpedSystem& system, const SteadyPr
 ///             -> integrate   not tried because a length is prescribed or the window holds no whole period
 ///   accept    -> done
 ///   confirm   -> evaluate    time integration agrees
+///             -> accept      it agrees over a part of a long window
 ///             -> search      it differs
 ///   search    -> evaluate
 ///   integrate -> evaluate
@@ -124,19 +125,24 @@ class SteadyStateFinder {
     return {};
   }
 
-  /// One window of time integration from the periodic solution.
+  /// Time integration from the periodic solution, over one window. Over two angles, twice around the slower one shows
+  /// all that a window shows.
   Step confirm() {
-    auto& windows = start_integration();
+    const int longer = 2 * periodic_.report->longer_angle;
+    const bool whole = longer == 0 || longer >= response_.window_cycles;
+    auto& windows = start_integration(whole ? response_.window_cycles : longer);
     windows.advance();
     const double difference = largest_difference(windows.last(), periodic_.windows->fine, problem_.force_scale);
     response_.steady_difference = difference;
     response_.steady = response_.confirmed = difference <= options_.steady_tolerance;
-    return {response_.confirmed ? &SteadyStateFinder::evaluate : &SteadyStateFinder::search};
+    if (whole) return {response_.confirmed ? &SteadyStateFinder::evaluate : &SteadyStateFinder::search};
+    integration_.reset();
+    return {response_.confirmed ? &SteadyStateFinder::accept : &SteadyStateFinder::search};
   }
 
   /// Windows until two agree.
   Step search() {
-    auto& windows = integration_ ? *integration_ : start_integration();
+    auto& windows = integration_ ? *integration_ : start_integration(response_.window_cycles);
     // All windows only for a response that stands alone and has, or may have, a periodic solution.
     const bool patient = options_.confirmation == Confirmation::always
                              ? periodic_.status != PeriodicStatus::not_found
@@ -149,8 +155,8 @@ class SteadyStateFinder {
 
   /// A prescribed length, or two windows that hold no whole period.
   Step integrate_prescribed() {
-    auto& windows = start_integration();
     const int cycles = response_.window_cycles;
+    auto& windows = start_integration(cycles);
     const int lead = options_.mesh_cycles ? *options_.mesh_cycles - cycles : cycles;
     const bool compared = response_.whole_period && lead >= cycles;
     if (const int skipped = compared ? lead - cycles : lead; skipped > 0) windows.skip(skipped);
@@ -205,7 +211,7 @@ class SteadyStateFinder {
   }
 
   /// From the periodic solution, else from the start of the problem, else from quasi-static equilibrium.
-  WindowIntegration& start_integration() {
+  WindowIntegration& start_integration(int cycles_per_window) {
     integrator_ = resolved_integrator(system_, problem_, options_.integrator, tightening_, response_.integrator);
     ResponseRun run(system_, problem_.mesh_frequency, options_.samples_per_cycle, integrator_);
     run.sample_forces_closer(closer_samples());
@@ -219,7 +225,7 @@ class SteadyStateFinder {
     }
     if (periodic_.windows)
       run.start_from(periodic_.windows->fine.displacement.col(0), periodic_.windows->fine.velocity.col(0));
-    return integration_.emplace(std::move(run), response_.window_cycles);
+    return integration_.emplace(std::move(run), cycles_per_window);
   }
 
   /// Peaks of vibrations at the highest natural frequency need eight samples per period; long windows have many peaks.

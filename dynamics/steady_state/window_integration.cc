@@ -49,7 +49,7 @@ double resolved_energy(const LumpedSystem& system, const Eigen::VectorXd& displa
 }  // namespace
 
 double largest_difference(const ResponseWindow& a, const ResponseWindow& b, double force_scale) {
-  return (a.force - b.force).cwiseAbs().maxCoeff() / force_scale;
+  return (a.force - b.force.leftCols(a.force.cols())).cwiseAbs().maxCoeff() / force_scale;
 }
 
 void WindowIntegration::advance() {

@@ -43,7 +43,7 @@ class WindowIntegration {
   int cycles_ = 0, windows_ = 0;
 };
 
-/// Largest difference of a mesh force between two windows / `force_scale` (N).
+/// Largest difference of a mesh force between two windows / `force_scale` (N), over the times of the first.
 [[nodiscard]] double largest_difference(const ResponseWindow& a, const ResponseWindow& b, double force_scale);
 
 }  // namespace annulus::dynamics

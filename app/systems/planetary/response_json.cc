@@ -61,8 +61,8 @@ Json motion_json(const StageMotion& m) {
 
 Json direct_json(const std::optional<dynamics::PeriodicSolution>& direct) {
   if (!direct) return nullptr;
-  const bool piecewise = direct->method == dynamics::PeriodicMethod::piecewise;
-  return {{"method", piecewise ? "piecewise" : "harmonic_balance"},
+  constexpr const char* methods[] = {"harmonic_balance", "two_frequencies", "piecewise"};
+  return {{"method", methods[static_cast<int>(direct->method)]},
           {"converged", direct->converged},
           {"trouble", direct->trouble},
           {"newton_iterations", direct->newton_iterations},

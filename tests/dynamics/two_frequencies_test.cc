@@ -1,0 +1,163 @@
+#include "dynamics/steady_state/two_frequencies.h"
+
+#include <boost/test/unit_test.hpp>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <tuple>
+#include <vector>
+
+#include "dynamics/steady_state/periodic_response.h"
+#include "dynamics/systems/planetary/response.h"
+#include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
+
+/// Motions over two angles.
+BOOST_AUTO_TEST_SUITE(two_frequencies)
+
+using namespace annulus;
+using namespace annulus::dynamics;
+using annulus::test::Verification;
+
+namespace {
+
+/// A ring mesh whose stiffness repeats after 27 teeth, as on 24 pins around 162 teeth.
+TableStiffness on_pins(double load, double wave) {
+  constexpr int positions = 27, phases = 16;
+  std::vector<StiffnessEntry> entries;
+  std::vector<double> angles;
+  for (int p = 0; p < positions; ++p) {
+    angles.push_back(2 * std::numbers::pi * p / 162);
+    for (int i = 0; i < phases; ++i) {
+      const double cycles = p + static_cast<double>(i) / phases;
+      const double k = 1.87e9 * (1 + 0.0647 * std::cos(2 * std::numbers::pi * cycles) +
+                                 wave * std::cos(2 * std::numbers::pi * 4 * cycles / 27));
+      StiffnessEntry entry;
+      entry.unloaded_te = 2e-6 * std::sin(2 * std::numbers::pi * 4 * cycles / 27);
+      entry.lte = load / k + entry.unloaded_te;
+      entry.stiffness_secant = entry.stiffness_tangent = k;
+      entries.push_back(entry);
+    }
+  }
+  return table_stiffness(StiffnessTable("ring_planet", phases, angles, {load}, entries), load);
+}
+
+PlanetaryStage on_24_pins() {
+  auto stage = stages::ring_paper();
+  stage.ring_mesh = on_pins(stage.mean_mesh_force(), 0.02);
+  stage.ring_tooth_offset = {0, 5, 11, 16, 22};
+  return stage;
+}
+
+double seconds_of(const std::function<void()>& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(angles_of_excitations) {
+  const auto angles_of = [](const PlanetaryStage& stage) {
+    return dynamics::two_frequencies(assemble(stage), stage.mesh_frequency(), stage.error_period());
+  };
+  const auto pins = on_24_pins();
+  BOOST_TEST(pins.error_period() == 27 * 55);
+  const auto found = angles_of(pins);
+  BOOST_REQUIRE(found);
+  BOOST_TEST(found->cycles == 27);
+  BOOST_TEST(std::abs(found->second_rate - 2 * std::numbers::pi * pins.mesh_frequency() / 55) < 1e-9);
+  BOOST_TEST(found->waves.size() == 10U);
+  // Errors that repeat with the first angle belong to it, and only what saves time is worth a second one.
+  auto ring = pins;
+  ring.ring.errors.eccentricity = {20e-6, 0};
+  BOOST_TEST(!angles_of(ring));  // 162 cycles against 8910
+  auto none = pins;
+  none.planet_errors.clear();
+  BOOST_TEST(!angles_of(none));
+  auto reduced = without_waves(assemble(pins), found->waves);
+  for (const auto& mesh : reduced.meshes())
+    for (const auto& error : mesh.errors) BOOST_TEST(error.rate == 0);
+}
+
+// The motion over both angles is that over the whole period of 1485 mesh cycles.
+BOOST_AUTO_TEST_CASE(pins_and_planet_errors) {
+  Verification record("Motion over two angles", "harmonic balance over the common period");
+  const auto stage = on_24_pins();
+  const auto system = assemble(stage);
+  const int cycles = stage.error_period();
+  const double period = cycles / stage.mesh_frequency();
+  PeriodicOptions options;
+  options.samples_per_cycle = 16;
+  options.sampling_tolerance = 1e-3 * stage.mean_mesh_force();
+  options.max_samples_per_cycle = options.max_samples_ahead = 16;
+  const auto angles = dynamics::two_frequencies(system, stage.mesh_frequency(), cycles);
+  BOOST_REQUIRE(angles);
+  PeriodicResponse over_angles, over_period;
+  const double short_time =
+      seconds_of([&] { over_angles = two_frequency_response(system, *angles, period, cycles, options); });
+  const double long_time = seconds_of([&] { over_period = periodic_response(system, period, cycles, options); });
+  BOOST_TEST_MESSAGE("two angles: " << short_time << " s, whole period: " << long_time << " s");
+  BOOST_TEST_REQUIRE(over_angles.converged, over_angles.trouble);
+  BOOST_TEST_REQUIRE(over_period.converged, over_period.trouble);
+  BOOST_TEST(over_angles.open.maxCoeff() == 0);
+  const double scale = stage.mean_mesh_force();
+  record.at_most("mesh force, largest difference over the mean force", "",
+                 (over_angles.force - over_period.force).cwiseAbs().maxCoeff() / scale, 1e-3,
+                 "values of the second angle");
+  for (const auto& [values, expected, what] :
+       {std::tuple{&over_angles.displacement, &over_period.displacement,
+                   "displacement, largest difference over the largest one"},
+        {&over_angles.velocity, &over_period.velocity, "velocity, largest difference over the largest one"}})
+    record.at_most(what, "", (*values - *expected).cwiseAbs().maxCoeff() / expected->cwiseAbs().maxCoeff(), 1e-3,
+                   "values of the second angle");
+  // It says no smaller error than it has.
+  BOOST_TEST((over_angles.force - over_period.force).cwiseAbs().maxCoeff() <=
+             over_angles.largest_difference() + over_period.largest_difference());
+}
+
+// Where teeth separate, forces are not smooth in the second angle.
+BOOST_AUTO_TEST_CASE(loss_of_contact) {
+  Verification record("Motion over two angles with loss of contact", "harmonic balance over the common period");
+  auto stage = on_24_pins();
+  for (auto& errors : stage.planet_errors) errors.eccentricity.amount *= 4;
+  stage.sun_torque *= 0.35;
+  const auto system = assemble(stage);
+  const int cycles = stage.error_period();
+  PeriodicOptions options;
+  options.samples_per_cycle = 32;
+  options.sampling_tolerance = 3e-3 * stage.mean_mesh_force();
+  options.max_samples_per_cycle = options.max_samples_ahead = 32;
+  const auto angles = dynamics::two_frequencies(system, stage.mesh_frequency(), cycles);
+  BOOST_REQUIRE(angles);
+  const double period = cycles / stage.mesh_frequency();
+  const auto over_angles = two_frequency_response(system, *angles, period, cycles, options);
+  const auto over_period = periodic_response(system, period, cycles, options);
+  BOOST_TEST_REQUIRE(over_period.converged);
+  BOOST_TEST(over_period.open.maxCoeff() > 0);
+  if (!over_angles.converged) {
+    BOOST_TEST(!over_angles.trouble.empty());
+    return;
+  }
+  record.at_most("mesh force, largest difference over the mean force", "",
+                 (over_angles.force - over_period.force).cwiseAbs().maxCoeff() / stage.mean_mesh_force(), 0.02,
+                 "differences to other samplings");
+}
+
+BOOST_AUTO_TEST_CASE(steady_response_over_two_angles) {
+  const auto stage = on_24_pins();
+  SimulationOptions options;
+  options.samples_per_cycle = 32;
+  options.other_motions.starts = 0;
+  const auto found = simulate(stage, options);
+  BOOST_TEST(found.steady);
+  BOOST_TEST(found.confirmed);
+  BOOST_REQUIRE(found.periodic);
+  BOOST_TEST((found.periodic->method == PeriodicMethod::two_frequencies));
+  BOOST_TEST(found.periodic->longer_angle == 55);
+  BOOST_TEST(found.window_cycles == 27 * 55);
+  BOOST_TEST(found.series.time.size() == 27 * 55 * 32);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
