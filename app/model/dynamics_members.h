@@ -30,6 +30,7 @@ struct Members<PeriodicCurve> {
 ANNULUS_MEMBERS(dynamics::ToothError, curve, phase_offset);
 ANNULUS_MEMBERS(dynamics::Sliding, side, distance);
 ANNULUS_MEMBERS(dynamics::FlankFriction, coefficient, sliding);
+ANNULUS_MEMBERS(dynamics::SqueezeFilm, coefficient, least_gap);
 
 /// The curves follow from a table, which is an input of its own (table_behind).
 template <>

@@ -112,6 +112,12 @@ std::vector<FrictionShare> friction_shares(const FlankFriction& friction, const 
           {mu * motion.rotation, friction.sliding.distance}};
 }
 
+double pitch_point_radius(const geometry::GearPair& pair) {
+  const double pinion = pair.roll_length_pitch(), wheel = pair.wheel_roll_length(pinion);
+  const double curvature = 1 / pinion + (pair.internal() ? -1 : 1) / wheel;
+  return 1 / (curvature * std::cos(pair.pinion().base_helix_angle()));
+}
+
 double mean_coefficient_of_friction(const geometry::GearPair& pair, const MeanFilm& film) {
   check_positive(film.line_load, "line load");
   check_positive(film.pitch_velocity, "velocity of the pitch circles");
@@ -121,9 +127,7 @@ double mean_coefficient_of_friction(const geometry::GearPair& pair, const MeanFi
   constexpr double least_line_load = 150, largest_velocity = 50;  // N/mm, m/s
   const double line_load = std::max(film.line_load * units::mm, least_line_load);
   const double velocity = std::min(film.pitch_velocity, largest_velocity);
-  const double pinion = pair.roll_length_pitch(), wheel = pair.wheel_roll_length(pinion);
-  const double curvature = 1 / pinion + (pair.internal() ? -1 : 1) / wheel;
-  const double radius = 1 / (curvature * std::cos(pair.pinion().base_helix_angle()));
+  const double radius = pitch_point_radius(pair);
   const double sum = 2 * velocity * std::sin(pair.working_pressure_angle());
   constexpr double mPas = 1e-3;
   return 0.048 * std::pow(line_load / (sum * radius / units::mm), 0.2) * std::pow(film.viscosity / mPas, -0.05) *

@@ -54,6 +54,9 @@ struct SlidingSense {
 [[nodiscard]] std::vector<FrictionShare> friction_shares(const FlankFriction& friction, const PitchPointMotion& motion,
                                                          const SlidingSense& sense);
 
+/// m: of the curvature of both flanks in the pitch point together, over cos(base helix angle).
+[[nodiscard]] double pitch_point_radius(const geometry::GearPair& pair);
+
 /// Inputs of the mean coefficient of friction.
 struct MeanFilm {
   double line_load = 0;         ///< N/m: transverse force over the face width; at least 150 N/mm are taken

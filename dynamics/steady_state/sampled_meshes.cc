@@ -115,7 +115,7 @@ void SampledMeshes::add_piece(Eigen::Index sample, const Piece& piece) {
     if (whole_[m]) {
       force_[i] += weight * w.force[m];
       tangent_(sample, i) += weight * w.tangent[m];
-      damping_(sample, i) += weight * (damping_in(meshes[m], w.contact[m]) + shift * w.tangent[m]);
+      damping_(sample, i) += weight * (w.damping[m] + shift * w.tangent[m]);
     } else if (meshes[m].damping_without_contact) {
       force_[i] += weight * meshes[m].damping * w.delta_rate[m];
       damping_(sample, i) += weight * meshes[m].damping;

@@ -52,9 +52,11 @@ void subtract_coupled(const LumpedSystem& system, const Compiled& c, double t, E
       inverse.col(m) += w.factor[i] * c.inverse_moving.col(c.moving[i].slot);
     for (int i = c.meshes[m].first_friction; i < c.meshes[m].last_friction; ++i)
       inverse.col(m) += (w.force[m] < 0 ? -w.friction[i] : w.friction[i]) * c.friction[i].acceleration;
-    damping[m] = w.pace * acting_damping(c.meshes[m], w.contact[m]);
+    damping[m] = w.pace * w.damping[m];
   }
   system.tangent_matrix(w, tangent);
+  for (int m = 0; m < meshes; ++m)
+    tangent(m, m) += w.pace * damping_tangent(c.meshes[m], w.contact[m], w.delta[m], w.delta_rate[m]);
   const Eigen::MatrixXd damped = inverse * damping.asDiagonal();
   result.bottomLeftCorner(n, n) -= inverse * tangent * b.transpose() + damped * rate.transpose();
   result.bottomRightCorner(n, n) -= damped * b.transpose();
@@ -130,8 +132,8 @@ Eigen::VectorXd LumpedSystem::friction_force(const Workspace& w) const {
 
 LumpedSystem::Workspace LumpedSystem::workspace() const {
   Workspace w;
-  for (auto* list :
-       {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.elastic, &w.tangent, &w.approach})
+  for (auto* list : {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.elastic, &w.damping,
+                     &w.tangent, &w.approach})
     list->assign(meshes_.size(), 0.0);
   std::size_t largest = 0, tangents = 0;
   for (const auto& element : laws_) {
@@ -212,8 +214,8 @@ void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixX
   }
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
     const CompiledMesh& mesh = c.meshes[m];
-    const double k = w.tangent[m];
-    const double d = w.pace * acting_damping(mesh, w.contact[m]);
+    const double k = w.tangent[m] + w.pace * damping_tangent(mesh, w.contact[m], w.delta[m], w.delta_rate[m]);
+    const double d = w.pace * w.damping[m];
     for (int i = c.inverse_b.start[m]; i < c.inverse_b.start[m + 1]; ++i)
       for (int j = c.b.start[m]; j < c.b.start[m + 1]; ++j) {
         const double product = c.inverse_b.factor[i] * c.b.factor[j];
@@ -270,7 +272,7 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
   }
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     const CompiledMesh& mesh = compiled_->meshes[m];
-    p.dissipated += w.pace * acting_damping(mesh, w.contact[m]) * w.delta_rate[m] * w.delta_rate[m];
+    p.dissipated += w.pace * w.damping[m] * w.delta_rate[m] * w.delta_rate[m];
     p.supplied -= w.error_rate[m] * w.force[m];
     if (mesh.face < 0)
       p.supplied +=

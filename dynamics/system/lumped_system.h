@@ -34,6 +34,14 @@ struct FrictionShare {
   PeriodicCurve curve;
 };
 
+/// Oil between flanks that do not touch: it resists with coefficient h^(-3/2) h' to flanks that approach across a gap
+/// h, the driving ones or the back flanks; flanks that part leave it without force.
+struct SqueezeFilm {
+  double coefficient = 0;  ///< N s m^(1/2), along the line of action
+  double least_gap = 0;    ///< m, > 0: thinner films resist as this one
+  bool operator==(const SqueezeFilm&) const = default;
+};
+
 /// One gear mesh of any kind. b^T q is the approach of the bodies and delta = b^T q - e(t) the deflection, both along
 /// the line of action. The force on the DOFs is -b F with F = k(t) g(delta) + c delta', where g takes off half the
 /// backlash. c acts while the teeth are in contact (or always). A ForceSurface replaces k(t) g by its law Fs(t, g).
@@ -46,6 +54,7 @@ struct MeshElement {
   double damping = 0;                   ///< N s/m
   std::optional<double> half_backlash;  ///< m
   bool damping_without_contact = false;
+  std::optional<SqueezeFilm> film{};  ///< within the backlash
   std::vector<HarmonicError> errors;
   std::vector<ToothError> tooth_errors;
   std::vector<MovingShare> moving;      ///< at most one per DOF
@@ -152,6 +161,7 @@ class LumpedSystem {
     std::vector<PhaseLocation> location;           ///< per mesh at `time`, on the grid of its law
     std::vector<double> delta, delta_rate, force;  ///< per mesh, of the last evaluation
     std::vector<double> elastic;                   ///< per mesh, force without damping of the last evaluation
+    std::vector<double> damping;                   ///< per mesh, dF/d delta' of the last evaluation over `pace`, N s/m
     std::vector<double> tangent;                   ///< per mesh, dF/d delta of the last evaluation, N/m
     std::vector<double> law;                       ///< scratch of one law: deflections, forces
     std::vector<double> law_tangent;               ///< per law, d elastic / d delta of its meshes, N/m

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -28,6 +30,8 @@ struct CompiledMesh {
   Kind kind = Kind::constant;
   bool linear = true, damping_without_contact = false;
   double mean = 0, damping = 0, half_backlash = 0;
+  SqueezeFilm film;                        ///< coefficient 0: none
+  double film_backlash = 0;                ///< half of it
   double frequency = 0, phase_offset = 0;  ///< the phase shift of the excitation included
   double constant_error = 0;
   int first_error = 0, last_error = 0;        ///< of Compiled::errors
@@ -124,8 +128,28 @@ inline double penetration(const CompiledMesh& mesh, LumpedSystem::Contact contac
   return contact == LumpedSystem::Contact::open ? 0.0 : delta - static_cast<int>(contact) * mesh.half_backlash;
 }
 
-inline double acting_damping(const CompiledMesh& mesh, LumpedSystem::Contact contact) {
-  return contact != LumpedSystem::Contact::open || mesh.damping_without_contact ? mesh.damping : 0.0;
+/// Damping of the oil between flanks that approach each other, and its slope over the deflection.
+struct FilmDamping {
+  double damping = 0, slope = 0;  ///< N s/m, N s/m^2
+};
+inline FilmDamping film_damping(const CompiledMesh& mesh, double delta, double rate) {
+  const double side = rate > 0 ? 1 : -1, gap = mesh.film_backlash - side * delta;
+  const double film = std::max(gap, mesh.film.least_gap);
+  const double damping = mesh.film.coefficient / (film * std::sqrt(film));
+  return {damping, gap > mesh.film.least_gap ? 1.5 * side * damping / film : 0.0};
+}
+
+/// dF/d delta' of a mesh over the pace.
+inline double acting_damping(const CompiledMesh& mesh, LumpedSystem::Contact contact, double delta, double rate) {
+  if (contact != LumpedSystem::Contact::open) return mesh.damping;
+  const double of_film = mesh.film.coefficient > 0 ? film_damping(mesh, delta, rate).damping : 0.0;
+  return of_film + (mesh.damping_without_contact ? mesh.damping : 0.0);
+}
+
+/// dF/d delta of its dampers.
+inline double damping_tangent(const CompiledMesh& mesh, LumpedSystem::Contact contact, double delta, double rate) {
+  if (contact != LumpedSystem::Contact::open || mesh.film.coefficient == 0) return 0;
+  return film_damping(mesh, delta, rate).slope * rate;
 }
 
 inline LumpedSystem::Contact contact_of(const CompiledMesh& mesh, double delta) {

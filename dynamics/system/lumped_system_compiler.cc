@@ -112,6 +112,13 @@ void LumpedSystemCompiler::compile_mesh(const MeshElement& mesh) {
   m.damping_without_contact = mesh.damping_without_contact;
   m.half_backlash = mesh.half_backlash.value_or(0.0);
   m.linear = m.half_backlash == 0;  // g(delta) = delta
+  m.film = mesh.film.value_or(SqueezeFilm{});
+  m.film_backlash = m.half_backlash;
+  if (mesh.film && !(mesh.film->coefficient >= 0 && mesh.film->least_gap > 0))
+    throw InputError(
+        fmt::format("mesh {}: an oil film with the coefficient {} N s m^(1/2) and a least gap of {} m; "
+                    "they must be positive",
+                    mesh.name, mesh.film->coefficient, mesh.film->least_gap));
   m.frequency = mesh.frequency;
   m.phase_offset = mesh.phase_offset;
   compile_errors(mesh, m);
@@ -249,6 +256,7 @@ void LumpedSystemCompiler::compile_face(const FaceElement& face, int number) {
   }
   auto& mesh = compiled_->meshes[face.approach];
   mesh.face = number;
+  mesh.film_backlash = face.half_backlash.value_or(0.0);
   if (face.course) {
     const auto& [slope, curvature, gap_slope] = *face.course;
     mesh.face_course = shared_bundle(compiled_->bundles, CurveBundle({&slope, &curvature, &gap_slope}));

@@ -161,8 +161,10 @@ void LumpedSystem::apply_forces(Workspace& w, ContactStates states) const {
     apply_face(faces_[i], c.meshes[faces_[i].approach], w, w.across_face[i]);
   double* tangent = w.law_tangent.data();
   for (const auto& element : laws_) tangent = apply_law_element(element, w, tangent);
-  for (std::size_t m = 0; m < c.meshes.size(); ++m)
-    w.force[m] = w.elastic[m] + w.pace * acting_damping(c.meshes[m], w.contact[m]) * w.delta_rate[m];
+  for (std::size_t m = 0; m < c.meshes.size(); ++m) {
+    w.damping[m] = acting_damping(c.meshes[m], w.contact[m], w.delta[m], w.delta_rate[m]);
+    w.force[m] = w.elastic[m] + w.pace * w.damping[m] * w.delta_rate[m];
+  }
 }
 
 void LumpedSystem::detect_contact(double t, const double* q, Workspace& w) const {

@@ -78,7 +78,8 @@ BOOST_AUTO_TEST_CASE(losses_of_a_solved_stage) {
   for (const auto& [mesh, teeth] :
        {std::pair{"sun_planet", 1.0 / 24 + 1.0 / 24}, {"ring_planet", 1.0 / 24 - 1.0 / 72}}) {
     const auto lost = results.at(std::string(mesh) + "_friction_loss_W");
-    const auto file = folder.path() / "out" / (mesh == std::string("ring_planet") ? "ring" : "") / ("lte_" + std::string(mesh) + ".csv");
+    const auto file = folder.path() / "out" / (mesh == std::string("ring_planet") ? "ring" : "") /
+                      ("lte_" + std::string(mesh) + ".csv");
     const double expected =
         4 * 0.06 * force * mean_distance(file, roll, force) * 2 * std::numbers::pi * frequency * teeth;
     record.close(mesh, "W", lost.value, expected, 0.03, "positions of the file are 1/16 of a mesh cycle apart");
@@ -121,6 +122,30 @@ BOOST_AUTO_TEST_CASE(friction_of_a_pair) {
   BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
   auto results = results_of(folder.path() / "out");
   BOOST_TEST((results["efficiency"].value > 0.97 && results["efficiency"].value < 0.999));
+}
+
+// Oil acts where teeth separate: it changes nothing else, and softens their impacts.
+BOOST_AUTO_TEST_CASE(oil_within_the_backlash) {
+  const test::TemporaryFolder folder("annulus_friction");
+  const auto run = [&](const std::string& torque, const std::string& film) {
+    write_file(folder.path() / "scene.toml",
+               test::replaced(test::quick_pair(), "pinion_torque_Nm = 20000", "pinion_torque_Nm = " + torque) + film);
+    const auto outcome = test::run_program(folder.path(), "run scene.toml -o out");
+    BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+    return results_of(folder.path() / "out");
+  };
+  const std::string film = "[squeeze_film]\nviscosity_mPas = 50\nleast_gap_um = 1\n";
+  auto loaded = run("20000", ""), with_oil = run("20000", film);
+  BOOST_TEST(loaded["contact_loss"].value == 0);
+  BOOST_TEST(loaded["mesh_force_max_N"].value == with_oil["mesh_force_max_N"].value);
+  auto rattling = run("300", ""), softened = run("300", film);
+  BOOST_TEST(rattling["contact_loss"].value > 0);
+  BOOST_TEST(softened["mesh_force_max_N"].value < rattling["mesh_force_max_N"].value);
+  const auto without_dynamics = test::replaced(test::quick_pair(),
+                                               "[dynamics]\nhalf_backlash_um = 150\nmesh_damping_ratio = 0.08\n"
+                                               "support_damping_ratio = 0.05\n",
+                                               "");
+  BOOST_TEST(test::scene_refusal(without_dynamics + film).find("squeeze_film") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(keys_of_friction) {

@@ -6,6 +6,7 @@
 #include "core/errors.h"
 #include "dynamics/friction/balanced_friction.h"
 #include "dynamics/friction/flank_friction.h"
+#include "dynamics/friction/squeeze_film.h"
 #include "dynamics/statics/static_solver.h"
 #include "dynamics/systems/helical_pair/helical_pair.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
@@ -17,7 +18,7 @@
 #include "tests/geometry/gears.h"
 #include "tests/verification_record.h"
 
-/// Friction on the flanks.
+/// Friction on the flanks, and the oil between them.
 BOOST_AUTO_TEST_SUITE(friction)
 
 using namespace annulus;
@@ -389,6 +390,84 @@ BOOST_AUTO_TEST_CASE(motion_of_a_stage_settles) {
     without_friction = std::max(without_friction, branch.dynamic_factor.value);
   BOOST_TEST(std::abs(largest - without_friction) > 1e-4);
   BOOST_TEST(std::abs(largest - without_friction) < 0.1);
+}
+
+// Finite differences for the pressure between a parabola and a plane that approach each other.
+BOOST_AUTO_TEST_CASE(oil_between_rolls) {
+  Verification record("Oil squeezed between flanks", "Reynolds' equation by finite differences");
+  const auto pair = spur_pair();
+  const double viscosity = 0.04, width = 20e-3, radius = pitch_point_radius(pair);
+  // 1/R = 1/(r_1 sin alpha) + 1/(r_2 sin alpha).
+  BOOST_TEST(std::abs(radius - std::sin(20 * units::deg) / (1 / 23e-3 + 1 / 41e-3)) < 1e-12);
+  for (const double gap : {2e-6, 20e-6}) {
+    constexpr int cells = 40000;
+    const double length = 400 * std::sqrt(2 * radius * gap), step = length / cells;
+    // h^3 p' = 12 eta V x from the middle, where the film is symmetric, with V = 1; no pressure at the end.
+    double pressure = 0, force = 0;
+    for (int i = cells - 1; i >= 0; --i) {
+      const double x = (i + 0.5) * step, h = gap + x * x / (2 * radius);
+      const double slope = 12 * viscosity * x / (h * h * h);
+      force += (pressure + slope * step / 2) * step;
+      pressure += slope * step;
+    }
+    record.close("force over the velocity", "N s/m", squeeze_coefficient(pair, viscosity) * std::pow(gap, -1.5),
+                 2 * force * width, 2e-3, "cells");
+  }
+}
+
+// m v dv = -C h^(-3/2) v dh: v = v_0 - 2 C/m (h^(-1/2) - h_0^(-1/2)).
+BOOST_AUTO_TEST_CASE(flanks_that_approach_through_oil) {
+  Verification record("Velocity behind an oil film", "equation of motion over the gap");
+  constexpr double mass = 2, half = 50e-6, coefficient = 2e-5, speed = 0.02;
+  for (const int side : {1, -1}) {
+    LumpedSystemBuilder builder;
+    MeshElement mesh;
+    mesh.name = "m";
+    mesh.b = builder.add_dof("x");
+    mesh.excitation = ConstantStiffness{1e8};
+    mesh.damping = 100;
+    mesh.half_backlash = half;
+    mesh.film = SqueezeFilm{coefficient, 1e-6};
+    builder.add_mass(mesh.b, mass);
+    builder.add_mesh(mesh);
+    const auto system = builder.build();
+    auto workspace = system.workspace();
+    SystemState state;
+    state.q = Eigen::VectorXd::Constant(1, -0.2 * side * half);
+    state.v = Eigen::VectorXd::Constant(1, side * speed);
+    IntegratorOptions options;
+    options.relative_tolerance = 1e-10;
+    const double before = 1.2 * half;
+    IntegrationObserver observer;
+    observer.samples = 40;
+    int compared = 0;
+    observer.sample = [&](int, const SystemState& s) {
+      const double gap = half - side * s.q[0];
+      if (gap < 1.5e-6 || side * s.v[0] < 0) return;
+      ++compared;
+      record.close("velocity", "m/s", side * s.v[0],
+                   speed - 2 * coefficient / mass * (1 / std::sqrt(gap) - 1 / std::sqrt(before)), 1e-6,
+                   "tolerance of the integrator");
+      // Jacobian by differences.
+      Eigen::Vector2d y(s.q[0], s.v[0]), more, less;
+      Eigen::MatrixXd slopes(2, 2);
+      auto own = system.workspace();
+      system.detect_contact(s.time, y.data(), own);
+      system.jacobian(s.time, y.data(), slopes, own);
+      for (int i = 0; i < 2; ++i) {
+        const double step = i == 0 ? 1e-9 : 1e-6;
+        Eigen::Vector2d up = y, down = y;
+        up[i] += step;
+        down[i] -= step;
+        system.rhs(s.time, up.data(), more.data(), own);
+        system.rhs(s.time, down.data(), less.data(), own);
+        BOOST_TEST(std::abs((more[1] - less[1]) / (2 * step) - slopes(1, i)) <=
+                   1e-4 * slopes.row(1).cwiseAbs().maxCoeff());
+      }
+    };
+    (void)integrate(system, state, before / speed, options, workspace, observer);
+    BOOST_TEST(compared > 10);
+  }
 }
 
 // The factors of [ISO14179-2] of a pair by hand.

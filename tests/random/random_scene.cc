@@ -236,6 +236,7 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"dynamics.mesh_cycles", "a length of motion, without a steady state"},
       {"rotor.*", "put on a body that turns"},
       {"friction.*", "by a coefficient or by the oil"},
+      {"squeeze_film.*", "beside friction"},
   };
   return keys;
 }
@@ -279,6 +280,10 @@ void put_a_rotor(Draw draw, GearSet& set) {
 /// Flanks of some scenes have friction. Drawn apart, as well.
 void put_friction(Draw draw, GearSet& set) {
   if (set.draft.text_of("stage.kind") == "two_k_v" || !draw.chance(0.15)) return;
+  if (set.draft.has_table("dynamics") && draw.chance(0.3)) {
+    set.draft.set("squeeze_film.viscosity_mPas", rounded(draw.log_uniform(5, 300)));
+    set.draft.set("squeeze_film.least_gap_um", rounded(draw.log_uniform(0.1, 3)));
+  }
   if (draw.chance(0.5)) return set.draft.set("friction.coefficient", rounded(draw.log_uniform(0.01, 0.15)));
   set.draft.set("friction.oil_viscosity_mPas", rounded(draw.log_uniform(5, 300)));
   set.draft.set("friction.roughness_um", rounded(draw.log_uniform(0.1, 3)));

@@ -22,8 +22,8 @@ struct Members<dynamics::PairSpace> {
   }
 };
 ANNULUS_MEMBERS(dynamics::HelicalPair, pinion, wheel, base_helix_angle, working_angle, mesh, mesh_error, half_backlash,
-                mesh_damping, bearing_damping, structural_damping, damping_without_contact, friction, pinion_speed,
-                pinion_torque, space, rotors);
+                mesh_damping, bearing_damping, structural_damping, damping_without_contact, friction, film,
+                pinion_speed, pinion_torque, space, rotors);
 
 }  // namespace annulus
 

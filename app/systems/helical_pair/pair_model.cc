@@ -96,6 +96,7 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
   pair.structural_damping = structural_damping(d);
   pair.damping_without_contact = d.mesh_damping == MeshDamping::always;
   pair.friction = flank_friction(scene, rolling_mesh(scene, geometry), flanks.shares, MeshForces::normal);
+  pair.film = squeeze_film(scene, geometry.gears, MeshForces::normal);
   pair.pinion_speed = scene.stage.pinion_speed;
   pair.pinion_torque = scene.stage.pinion_torque;
   pair.rotors = rotors_of(scene);

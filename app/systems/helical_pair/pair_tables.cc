@@ -180,7 +180,6 @@ std::vector<Table> pair_tables() {
                                pair_gear_table("pinion", "The driving gear of a pair.", &Scene::pinion),
                                pair_gear_table("wheel", "The driven gear of a pair.", &Scene::wheel),
                                pair_mesh_table(),
-                               friction_table(),
                                rotor_table(),
                                pair_errors_table(),
                                manufacturing_error_table(),
@@ -188,7 +187,8 @@ std::vector<Table> pair_tables() {
   auto space = space_tables({.bodies = {{"pinion", Body::pinion, &GravityInput::pinion, &TiltInertiaInput::pinion},
                                         {"wheel", Body::wheel, &GravityInput::wheel, &TiltInertiaInput::wheel}},
                              .frames = KindInSpace::Frames::housing});
-  std::move(space.begin(), space.end(), std::back_inserter(tables));
+  for (auto more : {friction_tables(), std::move(space)})
+    std::move(more.begin(), more.end(), std::back_inserter(tables));
   return tables;
 }
 

@@ -362,13 +362,12 @@ std::vector<Table> planetary_tables() {
       mesh("mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.", &Scene::sun_planet),
       mesh("mesh.ring_planet", "Stiffness of the ring mesh, prescribed instead of computed.", &Scene::ring_planet),
       rim_coupling_key(),
-      friction_table(),
       rotor_table(),
       tolerances_table(),
       strain_gauge_table(),
       optimised_ring_key()};
-  auto space = structure_tables();
-  std::move(space.begin(), space.end(), std::back_inserter(tables));
+  for (auto more : {friction_tables(), structure_tables()})
+    std::move(more.begin(), more.end(), std::back_inserter(tables));
   return tables;
 }
 

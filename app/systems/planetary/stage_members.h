@@ -29,8 +29,8 @@ ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_bea
                 ring_teeth, sun_mesh, ring_mesh, sun_phase_lag, ring_phase_lag, ring_tooth_offset, ring_coupling,
                 planet_coupling, sun_half_backlash, ring_half_backlash, mesh_damping_ratio, sun_mesh_damping_ratio,
                 ring_mesh_damping_ratio, support_damping_ratio, structural_damping, damping_without_contact,
-                sun_friction, ring_friction, carrier_speed, ring_speed, bearing_speed, sun_torque, held, rotating_frame,
-                space, rotors);
+                sun_friction, ring_friction, sun_film, ring_film, carrier_speed, ring_speed, bearing_speed, sun_torque,
+                held, rotating_frame, space, rotors);
 
 ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
 ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_factor, mean_force, contact_loss,

@@ -116,6 +116,8 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   };
   stage.sun_friction = friction(set.sun_mesh(), sun_mesh);
   stage.ring_friction = friction(set.ring_mesh(), ring_mesh);
+  stage.sun_film = squeeze_film(scene, set.sun_mesh(), MeshForces::transverse);
+  stage.ring_film = squeeze_film(scene, set.ring_mesh(), MeshForces::transverse);
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
   stage.rotors = rotors_of(scene);
   if (moves_in_space(scene)) put_in_space(stage, scene, geometry, ring, sun_mesh, ring_mesh);

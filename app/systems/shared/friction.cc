@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "app/scene/scene_declare.h"
+#include "dynamics/friction/squeeze_film.h"
 #include "geometry/gear_pair.h"
 
 namespace annulus::app {
@@ -41,6 +42,24 @@ PairShares coarser(const PairShares& shares) {
 
 }  // namespace
 
+namespace {
+
+Table squeeze_film_table() {
+  Declarations<SqueezeInput> film(
+      "squeeze_film",
+      "Oil that resists to flanks which approach each other within the backlash, beside the dampers of contact.",
+      [](Scene& s, std::size_t) -> SqueezeInput& { return s.own<SqueezeInput>(); });
+  film.on_request().only_if(given("[dynamics]"), "it acts in motions alone");
+  film.key("viscosity_mPas", &SqueezeInput::viscosity, "Dynamic viscosity of the oil at its temperature.")
+      .required()
+      .above(0, 1e5);
+  film.key("least_gap_um", &SqueezeInput::least_gap,
+           "Gap below which the oil resists no more than at it: roughness, or thickness of the film in contact.")
+      .required()
+      .from(1e-3, 1000);
+  return film.done();
+}
+
 Table friction_table() {
   Declarations<FrictionInput> friction(
       "friction", "Friction on the flanks, by Coulomb's law: losses, efficiency, and what it does to the dynamics.",
@@ -67,6 +86,10 @@ Table friction_table() {
   return friction.done();
 }
 
+}  // namespace
+
+std::vector<Table> friction_tables() { return {friction_table(), squeeze_film_table()}; }
+
 bool has_friction(const Scene& scene) {
   const auto input = scene.own<FrictionInput>();
   return input.coefficient || input.viscosity;
@@ -78,6 +101,16 @@ std::optional<dynamics::FlankFriction> flank_friction(const Scene& scene, const 
   const double along = forces == MeshForces::transverse ? to_normal(rolling) : 1;
   return dynamics::FlankFriction{along * coefficient_of(scene, rolling),
                                  dynamics::sliding_of(*rolling.pair, known_shares(rolling, shares))};
+}
+
+std::optional<dynamics::SqueezeFilm> squeeze_film(const Scene& scene, const geometry::GearPair& pair,
+                                                  MeshForces forces) {
+  const auto input = scene.own<SqueezeInput>();
+  if (input.viscosity == 0) return std::nullopt;
+  const bool normal = forces == MeshForces::normal;
+  return dynamics::SqueezeFilm{normal ? dynamics::squeeze_coefficient(pair, input.viscosity)
+                                      : dynamics::transverse_squeeze_coefficient(pair, input.viscosity),
+                               normal ? input.least_gap : input.least_gap / std::cos(pair.pinion().base_helix_angle())};
 }
 
 MeshLosses mesh_losses(const Scene& scene, const RollingMesh& rolling, const MeshResult& mesh, int number) {

@@ -25,8 +25,12 @@ struct FrictionInput {
   double lubricant_factor = 1;
 };
 
-/// [friction]
-[[nodiscard]] Table friction_table();
+struct SqueezeInput {
+  double viscosity = 0, least_gap = 0;  ///< Pa s, m; no viscosity: no film
+};
+
+/// [friction], [squeeze_film]
+[[nodiscard]] std::vector<Table> friction_tables();
 [[nodiscard]] bool has_friction(const Scene& scene);
 
 /// A mesh of a gear set at its operating point.
@@ -41,6 +45,10 @@ enum class MeshForces { normal, transverse };
 /// Nothing without [friction]. Without load shares those of stiff teeth.
 [[nodiscard]] std::optional<dynamics::FlankFriction> flank_friction(const Scene& scene, const RollingMesh& rolling,
                                                                     const PairShares& shares, MeshForces forces);
+
+/// Oil within the backlash of a mesh; nothing without [squeeze_film].
+[[nodiscard]] std::optional<dynamics::SqueezeFilm> squeeze_film(const Scene& scene, const geometry::GearPair& pair,
+                                                                MeshForces forces);
 
 /// What meshes of one sort lose.
 struct MeshLosses {

@@ -233,6 +233,7 @@ LumpedSystem assemble(const HelicalPair& pair) {
   add_error(pair.mesh_error, 2 * std::numbers::pi * pair.mesh_frequency());
   add_error(pair.pinion.error, pair.pinion_speed);
   add_error(pair.wheel.error, pair.wheel_speed());
+  mesh.film = pair.film;
   if (pair.friction)
     mesh.friction =
         friction_shares(*pair.friction,

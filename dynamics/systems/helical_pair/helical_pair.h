@@ -74,6 +74,7 @@ struct HelicalPair {
   StructuralDamping structural_damping{};
   bool damping_without_contact = false;     ///< true: as printed, meshes without contact push and pull
   std::optional<FlankFriction> friction{};  ///< on the flanks; absent: none
+  std::optional<SqueezeFilm> film{};        ///< within the backlash; absent: none
 
   double pinion_speed = 0;  ///< rad/s, >= 0
   /// N m; the torque of the wheel is this times the ratio. Negative: the back flanks, or a mesh that pulls.

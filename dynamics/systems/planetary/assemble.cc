@@ -360,6 +360,8 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
     ring_meshes.push_back(mesh("ring_planet" + number, ring_b, stage.ring_mesh, stage.ring, stage.ring_half_backlash,
                                ring_mesh_phase(stage, n), ring_mesh_errors(stage, n), stage.ring_tooth_errors, n));
     if (housing) ring_meshes.back().moving = ring_shares(stage, ring, ring_modes, phi + ar);
+    meshes.back().film = stage.sun_film;
+    ring_meshes.back().film = stage.ring_film;
     meshes.back().friction = mesh_friction(stage, bodies, MeshWith::sun, n);
     ring_meshes.back().friction = mesh_friction(stage, bodies, MeshWith::ring, n);
   }

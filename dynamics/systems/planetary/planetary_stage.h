@@ -128,6 +128,7 @@ struct PlanetaryStage {
   bool damping_without_contact = false;
   /// Friction on the flanks; absent: none. It moves the ring across the line of action only without modes of the ring.
   std::optional<FlankFriction> sun_friction{}, ring_friction{};
+  std::optional<SqueezeFilm> sun_film{}, ring_film{};  ///< within the backlash; absent: none
 
   /// Omega_c and Omega_r, rad/s, counter-clockwise; the sun's follows (geometry/power_flow.h). Where the carrier turns
   /// clockwise against the ring, the meshes run through their cycles backwards: the carrier then drives, or the ring.
