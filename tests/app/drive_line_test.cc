@@ -1,12 +1,17 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "app/scene/scene.h"
 #include "app/scene/scene_schema.h"
+#include "app/systems/shared/rotors.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -164,6 +169,32 @@ BOOST_AUTO_TEST_CASE(rotors_that_are_refused) {
              std::string::npos);
   BOOST_TEST(refused("inertia_kg_m2 = 0.4", "inertia_kg_m2 = 0").find("rotor.inertia_kg_m2") != std::string::npos);
   BOOST_TEST(refused("name = \"flywheel\"", "name = \"fly wheel\"").find("letters, digits") != std::string::npos);
+}
+
+// The waves pass through the values, less their mean.
+BOOST_AUTO_TEST_CASE(torque_over_a_turn) {
+  const auto rotor_with = [](const std::string& keys) {
+    return steady_stage() + "[[rotor]]\nname = \"engine\"\non = \"sun\"\ninertia_kg_m2 = 3\nshaft_Nm_per_rad = 1e6\n" +
+           keys;
+  };
+  for (const auto& values : {std::vector<double>{10, -4, 7, 3, 1}, {3, 0, -2, 8, 5, 4}}) {
+    const auto scene = app::parse_scene(
+        rotor_with(fmt::format("torque_over_turn_Nm = [{}]\n", fmt::join(values, ", "))), "scene.toml");
+    const auto ripples = app::rotors_of(scene).front().ripples;
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(values.size());
+      double torque = 0;
+      for (const auto& wave : ripples) torque += wave.amplitude * std::cos(wave.order * angle + wave.phase);
+      BOOST_TEST(std::abs(torque - (values[i] - mean)) < 1e-12);
+    }
+  }
+  BOOST_TEST(app::rotors_of(app::parse_scene(rotor_with("torque_over_turn_Nm = [5, 5, 5]\n"), "scene.toml"))
+                 .front()
+                 .ripples.empty());
+  BOOST_TEST(
+      test::scene_refusal(rotor_with("torque_over_turn_Nm = [1, 2]\nripple_orders = [1]\nripple_torques_Nm = [2]\n"))
+          .find("torque_over_turn_Nm") != std::string::npos);
 }
 
 // 54 cycles per turn of the carrier: three of the ring mesh.

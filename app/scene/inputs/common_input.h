@@ -131,6 +131,7 @@ struct RotorInput {
   std::optional<double> shaft_damping_ratio{};  ///< absent: that of the supports
   double shaft_backlash = 0;                    ///< rad, the whole of it
   std::vector<double> ripple_orders{}, ripple_torques{}, ripple_phases{};  ///< per turn; N m; rad, empty: all 0
+  std::vector<double> torque_over_turn{};  ///< N m, equidistant; their mean has no effect
 };
 
 }  // namespace annulus::app

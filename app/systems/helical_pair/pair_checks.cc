@@ -85,8 +85,9 @@ class PairChecker : KeyChecks {
     const auto& e = scene_.errors;
     const bool no_error = e.mesh_error.value_or(0) == 0 && e.pinion_error == 0 && e.wheel_error == 0 &&
                           (!scene_.manufacturing_error || scene_.manufacturing_error->reading == "none");
-    const bool no_ripple = std::all_of(scene_.rotors.begin(), scene_.rotors.end(),
-                                       [](const RotorInput& rotor) { return rotor.ripple_orders.empty(); });
+    const bool no_ripple = std::all_of(scene_.rotors.begin(), scene_.rotors.end(), [](const RotorInput& rotor) {
+      return rotor.ripple_orders.empty() && rotor.torque_over_turn.empty();
+    });
     if (usable("stage.pinion_torque_Nm") && scene_.stage.pinion_torque == 0 && no_error && no_ripple)
       problem("stage.pinion_torque_Nm",
               "must not be 0 without errors and torques of rotors that change: nothing excites the pair");

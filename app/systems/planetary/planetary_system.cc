@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iterator>
 #include <string>
 #include <tuple>
@@ -63,7 +64,9 @@ class PlanetarySystem final : public GearSystem {
     try {
       dynamics::check_ripples(rotors_of(scene()), stage_kinematics(scene(), geometry(), 0).shaft_ends());
     } catch (const InputError& error) {
-      throw InputError(std::string("rotor.ripple_orders: ") + error.what());
+      const bool listed = std::any_of(scene().rotors.begin(), scene().rotors.end(),
+                                      [](const RotorInput& rotor) { return !rotor.ripple_orders.empty(); });
+      throw InputError(fmt::format("rotor.{}: {}", listed ? "ripple_orders" : "torque_over_turn_Nm", error.what()));
     }
   }
 

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -44,6 +48,25 @@ class RotorChecker : KeyChecks {
     }
   }
 };
+
+/// Waves through equidistant values over a turn, without their mean.
+std::vector<dynamics::Rotor::Ripple> waves_of(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  const double largest =
+      values.empty() ? 0 : std::abs(*std::max_element(values.begin(), values.end(), [](double a, double b) {
+        return std::abs(a) < std::abs(b);
+      }));
+  std::vector<dynamics::Rotor::Ripple> waves;
+  for (std::size_t order = 1; 2 * order <= values.size(); ++order) {
+    std::complex<double> sum = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      sum += std::polar(values[i], -2 * std::numbers::pi * static_cast<double>(order * i) / count);
+    sum *= (2 * order == values.size() ? 1 : 2) / count;
+    constexpr double unseen = 1e-6;
+    if (std::abs(sum) > unseen * largest) waves.push_back({static_cast<double>(order), std::abs(sum), std::arg(sum)});
+  }
+  return waves;
+}
 
 }  // namespace
 
@@ -94,6 +117,15 @@ Table rotor_table() {
       .longest(50)
       .from(-360, 360)
       .absent("0 for each");
+  rotor
+      .key("torque_over_turn_Nm", &RotorInput::torque_over_turn,
+           "Torques on it over one of its turns, at equal angles from that at time 0 on, in the sense of the torque of "
+           "its body: of cylinders, say. Their waves are taken, up to half as many per turn as there are values. Their "
+           "mean is left out: the torque of the body is the mean.")
+      .refused_if(given("ripple_orders"), "the values over a turn state all orders")
+      .longest(100)
+      .from(-1e9, 1e9)
+      .absent("a constant torque");
   return rotor.done();
 }
 
@@ -115,6 +147,7 @@ std::vector<dynamics::Rotor> rotors_of(const Scene& scene) {
     for (std::size_t k = 0; k < input.ripple_orders.size(); ++k)
       rotors[i].ripples.push_back({input.ripple_orders[k], input.ripple_torques.at(k),
                                    input.ripple_phases.empty() ? 0 : input.ripple_phases.at(k)});
+    for (const auto& wave : waves_of(input.torque_over_turn)) rotors[i].ripples.push_back(wave);
   }
   return rotors;
 }
