@@ -52,6 +52,37 @@ double potential(const Eigen::VectorXd& q, double crank_angle) {
   return v;
 }
 
+// Dampers of single parts are in the ratio of their damping ratios.
+BOOST_AUTO_TEST_CASE(damping_of_single_parts) {
+  auto stage = stages::reducer();
+  stage.input_support = 20;
+  stage.output_support = 1e5;
+  stage.support_damping_ratio = 0.05;
+  auto own = stage;
+  own.input_damping_ratio = 0.1;
+  own.crank_shaft_damping_ratio = 0.15;
+  own.crank_bearing_damping_ratio = 0.2;
+  own.arc_bearing_damping_ratio = 0.25;
+  own.output_damping_ratio = 0.3;
+  const auto usual = assemble(stage), changed = assemble(own);
+  int compared = 0;
+  for (std::size_t i = 0; i < usual.springs().size(); ++i) {
+    const auto &a = usual.springs()[i], &b = changed.springs()[i];
+    const double times = a.name.starts_with("input")    ? 2
+                         : a.name.ends_with("_shaft")   ? 3
+                         : a.name.ends_with("_bearing") ? 4
+                                                        : 6;
+    BOOST_TEST(std::abs(b.damping - times * a.damping) <= 1e-12 * b.damping, a.name);
+    ++compared;
+  }
+  BOOST_TEST(compared == 2 + 2 + 2 + 1);
+  for (std::size_t m = 0; m < usual.meshes().size(); ++m) {
+    const auto &a = usual.meshes()[m], &b = changed.meshes()[m];
+    const double times = a.name.starts_with("crank") ? 5 : 1;
+    BOOST_TEST(std::abs(b.damping - times * a.damping) <= 1e-12 * b.damping, a.name);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(ratio_follows_from_the_teeth) {
   annulus::test::Verification record("Kinematics of the published 2K-V reducer",
                                      "Willis for the sun against the carrier; pins met by the turning eccentric");

@@ -11,6 +11,7 @@ namespace annulus::app {
 struct CrankInput {
   std::optional<double> inertia, shaft, bearing;  ///< kg m^2; N m/rad planet to eccentrics; N/m in the carrier
   double angle = 0;                               ///< of the eccentrics at time 0, rad
+  std::optional<double> shaft_damping, bearing_damping;
 };
 
 /// The arc-tooth gears of a 2K-V stage and the pins of the housing.
@@ -21,17 +22,20 @@ struct ArcGearInput {
   double clearance = 0;
   dynamics::LineApproach approach = dynamics::LineApproach::handbook;
   std::optional<double> mass, inertia, bearing;  ///< of one; N/m on one eccentric
+  std::optional<double> bearing_damping;
 };
 
 struct InputShaftInput {
   std::optional<double> inertia, shaft;  ///< kg m^2; N m/rad to the sun
   double support = 0;                    ///< N m/rad; 0: free
+  std::optional<double> damping;
 };
 
 struct OutputInput {
   double torque = 0, speed = 0;
   std::optional<double> inertia;
   double support = 0;  ///< N m/rad; `rigid`: fixed
+  std::optional<double> damping;
 };
 
 /// What the scene of a 2K-V reducer has besides stage, material, sun, planets and dynamics.

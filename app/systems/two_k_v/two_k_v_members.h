@@ -11,7 +11,8 @@ ANNULUS_MEMBERS(dynamics::TwoKVStage, sun_teeth, planet_teeth, arc_teeth, pins, 
                 pressure_angle, eccentricity, input_inertia, sun_inertia, planet_inertia, planet_mass, crank_inertia,
                 arc_inertia, arc_mass, output_inertia, input_shaft, crank_shaft, crank_bearing, arc_bearing, sun_mesh,
                 arc_mesh, input_support, output_support, sun_half_backlash, arc_half_backlash, damping_without_contact,
-                mesh_damping, sun_mesh_damping, arc_mesh_damping, support_damping, structural_damping, crank_angle,
+                mesh_damping, sun_mesh_damping, arc_mesh_damping, support_damping, input_damping, crank_shaft_damping,
+                crank_bearing_damping, arc_bearing_damping, output_damping, structural_damping, crank_angle,
                 output_speed, output_torque, rotors);
 ANNULUS_MEMBERS(dynamics::ArcToothMesh, pins, eccentricity, pin_circle_radius, pin_radius, arc_radius, width,
                 youngs_modulus, poisson_ratio, clearance, approach);

@@ -181,6 +181,11 @@ dynamics::TwoKVStage make_two_k_v(const Scene& scene, const TwoKVTables& tables,
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
   stage.sun_mesh_damping_ratio = scene.sun_planet.damping_ratio;
   stage.arc_mesh_damping_ratio = scene.arc_pins.damping_ratio;
+  stage.input_damping_ratio = scene.input.damping;
+  stage.crank_shaft_damping_ratio = scene.crank.shaft_damping;
+  stage.crank_bearing_damping_ratio = scene.crank.bearing_damping;
+  stage.arc_bearing_damping_ratio = scene.arc_gear.bearing_damping;
+  stage.output_damping_ratio = scene.output.damping;
   stage.structural_damping = structural_damping(*scene.dynamics);
   stage.rotors = rotors_of(scene);
   return stage;

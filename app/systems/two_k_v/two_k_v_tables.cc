@@ -15,6 +15,15 @@ void declare_stiffness(Declarations<Section>& t, const char* name, std::optional
   t.key(name, member, meaning).above(0, 1e14).required_if(with_dynamics());
 }
 
+template <class Section>
+void declare_damping(Declarations<Section>& t, const char* name, std::optional<double> Section::*member,
+                     const std::string& of) {
+  t.key(name, member, "Damping ratio of " + of + ".")
+      .from(0, 2)
+      .only_if(with_dynamics())
+      .absent("dynamics.support_damping_ratio");
+}
+
 /// A mesh that is computed, or computed besides its prescribed stiffness.
 Condition computed_or_compared(const std::string& mesh) {
   return is(mesh + ".stiffness", {"computed"}) || is(mesh + ".compare", {"computed"});
@@ -50,6 +59,8 @@ Table crank_table() {
                     "Torsional stiffness of one shaft between planet and eccentrics.");
   declare_stiffness(crank, "bearing_N_per_m", &CrankInput::bearing,
                     "Stiffness of one shaft's bearings in the carrier, along the circle of the cranks.");
+  declare_damping(crank, "shaft_damping_ratio", &CrankInput::shaft_damping, "the shafts between planet and eccentrics");
+  declare_damping(crank, "bearing_damping_ratio", &CrankInput::bearing_damping, "the bearings in the carrier");
   crank
       .key("angle_deg", &CrankInput::angle,
            "Direction of the first arc gear's eccentric at time 0, from the line of centres to the first crank.")
@@ -94,6 +105,7 @@ Table arc_gear_table() {
   declare_inertia(arc, "Moment of inertia of one arc gear about its axis.").required_if(with_dynamics());
   declare_stiffness(arc, "bearing_N_per_m", &ArcGearInput::bearing,
                     "Stiffness of an arc gear's bearing on one eccentric, any direction.");
+  declare_damping(arc, "bearing_damping_ratio", &ArcGearInput::bearing_damping, "these bearings");
   return arc.done();
 }
 
@@ -110,6 +122,7 @@ Table input_shaft_table() {
       .fallback(0.0, "free: it transmits the power")
       .from(0, 1e14)
       .infinite();
+  declare_damping(input, "damping_ratio", &InputShaftInput::damping, "its shaft and its support");
   return input.done();
 }
 
@@ -125,6 +138,7 @@ Table output_table() {
       .required()
       .from(0, 1e14)
       .infinite();
+  declare_damping(output, "damping_ratio", &OutputInput::damping, "its support");
   return output.done();
 }
 

@@ -63,6 +63,9 @@ struct TwoKVStage {
   double mesh_damping_ratio = 0;
   std::optional<double> sun_mesh_damping_ratio{}, arc_mesh_damping_ratio{};  ///< absent: mesh_damping_ratio
   double support_damping_ratio = 0;                                          ///< shafts, bearings and supports
+  /// Of single ones of these, the input with its shaft and support; absent: support_damping_ratio.
+  std::optional<double> input_damping_ratio{}, crank_shaft_damping_ratio{}, crank_bearing_damping_ratio{},
+      arc_bearing_damping_ratio{}, output_damping_ratio{};
   StructuralDamping structural_damping{};
 
   double crank_angle = 0;    ///< Theta at time 0, rad

@@ -68,29 +68,35 @@ class TwoKVAssembler {
   }
 
   /// A spring between bodies, 1/m_e = a^T M^-1 a.
-  void add_spring(const LinearForm& a, double stiffness, double inverse_mass, const std::string& name) {
-    builder_.add_spring(a, stiffness, 2 * stage_.support_damping_ratio * std::sqrt(stiffness / inverse_mass), name);
+  void add_spring(const LinearForm& a, double stiffness, double inverse_mass, const std::optional<double>& ratio,
+                  const std::string& name) {
+    builder_.add_spring(a, stiffness, damper(ratio, stiffness, inverse_mass), name);
+  }
+  [[nodiscard]] double damper(const std::optional<double>& ratio, double stiffness, double inverse_mass) const {
+    return 2 * ratio.value_or(stage_.support_damping_ratio) * std::sqrt(stiffness / inverse_mass);
   }
 
   void add_shafts_and_supports() {
     const double r_s = sun_.radius;
     add_spring(input_.u + (-1.0) * sun_.u, stage_.input_shaft / (r_s * r_s), input_.inverse_mass + sun_.inverse_mass,
-               "input_shaft");
+               stage_.input_damping_ratio, "input_shaft");
     for (int i = 0; i < stage_.cranks; ++i) {
       const auto number = std::to_string(i + 1);
       const auto &planet = planets_[i], &crank = cranks_[i];
       const double to_planet = planet.radius / crank.radius;
       add_spring(planet.u + (-to_planet) * crank.u, stage_.crank_shaft / (planet.radius * planet.radius),
-                 planet.inverse_mass + to_planet * to_planet * crank.inverse_mass, "planet" + number + "_shaft");
+                 planet.inverse_mass + to_planet * to_planet * crank.inverse_mass, stage_.crank_shaft_damping_ratio,
+                 "planet" + number + "_shaft");
       add_spring(planet_x_[i] + (-1.0) * output_.u, stage_.crank_bearing, 1 / stage_.planet_mass + output_.inverse_mass,
-                 "crank" + number + "_bearing");
+                 stage_.crank_bearing_damping_ratio, "crank" + number + "_bearing");
     }
-    const auto support = [&](const TurningForm& body, double stiffness, const std::string& name) {
+    const auto support = [&](const TurningForm& body, double stiffness, const std::optional<double>& ratio,
+                             const std::string& name) {
       if (stiffness != rigid && stiffness != 0)
-        add_spring(body.u, stiffness / (body.radius * body.radius), body.inverse_mass, name + "_support_u");
+        add_spring(body.u, stiffness / (body.radius * body.radius), body.inverse_mass, ratio, name + "_support_u");
     };
-    support(input_, stage_.input_support, "input");
-    support(output_, stage_.output_support, "output");
+    support(input_, stage_.input_support, stage_.input_damping_ratio, "input");
+    support(output_, stage_.output_support, stage_.output_damping_ratio, "output");
   }
 
   MeshElement mesh(const std::string& name, LinearForm b, const MeshExcitation& excitation, double inverse_mass) const {
@@ -142,7 +148,7 @@ class TwoKVAssembler {
       element.name = "crank" + std::to_string(i + 1) + "_arc" + std::to_string(j + 1) + direction;
       element.b = std::move(b);
       element.excitation = ConstantStiffness{stage_.arc_bearing};
-      element.damping = 2 * stage_.support_damping_ratio * std::sqrt(stage_.arc_bearing / inverse_mass);
+      element.damping = damper(stage_.arc_bearing_damping_ratio, stage_.arc_bearing, inverse_mass);
       for (const auto& [dof, factor] : along_v) element.moving.push_back({dof, {}, {amount * factor, rate, phase}});
       builder_.add_mesh(std::move(element));
     };
