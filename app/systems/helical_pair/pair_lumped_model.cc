@@ -1,11 +1,14 @@
 #include "app/systems/helical_pair/pair_lumped_model.h"
 
+#include <cmath>
 #include <utility>
 
 #include "app/model/dynamics_members.h"
 #include "app/model/excitation.h"
 #include "app/model/table_errors.h"
 #include "app/results/cached_value.h"
+#include "app/systems/shared/friction.h"
+#include "app/systems/shared/mesh_names.h"
 #include "app/systems/shared/space_members.h"
 
 namespace annulus {
@@ -76,24 +79,45 @@ LumpedPair lumped_pair(const Scene& scene, const PairGeometry& geometry, const M
       make_pair(scene, geometry, pair_excitation(scene, geometry, mesh.table), mesh_error, {mesh.face, mesh.shares})};
 }
 
+FigureSet pair_losses(const Scene& scene, const PairGeometry& geometry, const PairShares& shares) {
+  FigureSet figures;
+  if (!has_friction(scene)) return figures;
+  auto losses = mesh_losses(scene, rolling_mesh(scene, geometry), shares, 1);
+  losses.mesh = pinion_wheel;
+  add_losses(figures, {losses}, std::abs(scene.stage.pinion_torque) * scene.stage.pinion_speed);
+  return figures;
+}
+
+const std::vector<FigureSpec>& pair_study_figures() {
+  static const auto list = [] {
+    auto specs = dynamics::pair_figures();
+    specs.push_back(efficiency_figure());
+    return specs;
+  }();
+  return list;
+}
+
 std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {
+  const auto losses = pair_losses(lumped.scene, lumped.geometry, lumped.mesh.shares);
   auto simulation = pair_simulation(lumped.scene);
   simulation.confirmation = dynamics::Confirmation::where_needed;
   simulation.keep_series = false;
   return std::make_unique<LumpedModel>(
       identity_of(lumped.id(simulation), std::string(pair_point_method)),
-      [pair = lumped.pair, simulation](Answer wanted) -> StudyPoint {
+      [pair = lumped.pair, simulation, losses](Answer wanted) -> StudyPoint {
         auto figures = dynamics::figures(dynamics::evaluate_pair(pair, simulation));
         if (wanted == Answer::all) figures.add(dynamics::frequency_figures(pair));
-        return {.figures = {dynamics::pair_figures(), figures}};
+        figures.add(losses);
+        return {.figures = {pair_study_figures(), figures}};
       },
       LumpedModel::Abilities{
           {},
-          [pair = lumped.pair, simulation](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
+          [pair = lumped.pair, simulation, losses](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
             const auto response = dynamics::evaluate_pair(pair, dynamics::followed_from(simulation, start));
             auto figures = dynamics::figures(response);
             figures.add(dynamics::frequency_figures(pair));
-            return {{.figures = {dynamics::pair_figures(), figures}}, response.end};
+            figures.add(losses);
+            return {{.figures = {pair_study_figures(), figures}}, response.end};
           },
           [pair = lumped.pair] { return dynamics::lumped_case(pair); },
           [pair = lumped.pair](const dynamics::TimeSeries& series) { return dynamics::space_motion(pair, series); }});

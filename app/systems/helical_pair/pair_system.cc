@@ -79,11 +79,7 @@ class PairSystem final : public GearSystem {
     for (const auto& s : mean_stiffnesses(scene(), make_pair_geometry(scene()), mesh))
       if (s.taken) figures.set("mean_stiffness_N_per_m", {s.value, std::abs(s.value) * s.error_relative});
     if (mesh.computed) figures.add(mesh_figures(*mesh.computed));
-    if (!has_friction(scene())) return figures;
-    const auto geometry = make_pair_geometry(scene());
-    const double torque = std::abs(scene().stage.pinion_torque);
-    add_losses(figures, {mesh_losses(scene(), rolling_mesh(scene(), geometry), *tables.front(), 1)},
-               torque * scene().stage.pinion_speed);
+    figures.add(pair_losses(scene(), make_pair_geometry(scene()), tables.front()->shares));
     return figures;
   }
 
@@ -184,10 +180,10 @@ const std::vector<FigureSpec>& all_pair_figures() {
 }  // namespace
 
 SystemKind helical_pair_kind() {
-  return {{"helical_pair", pair_tables, check_pair_scene, [] { return figure_keys(dynamics::pair_figures()); },
+  return {{"helical_pair", pair_tables, check_pair_scene, [] { return figure_keys(pair_study_figures()); },
            example_scene("helical_pair").c_str()},
           all_pair_figures,
-          dynamics::pair_figures,
+          pair_study_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PairSystem>(scene); }};
 }
 

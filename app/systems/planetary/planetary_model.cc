@@ -8,6 +8,7 @@
 #include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/strain_gauges.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/mesh_names.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
@@ -94,7 +95,7 @@ StartSpread spread_of(const dynamics::PlanetaryStage& stage, const dynamics::Sim
                       int seed) {
   const auto spread = dynamics::initial_spread(
       stage, {.random_starts = count - 1, .seed = static_cast<std::uint64_t>(seed), .simulation = simulation});
-  const auto& specs = dynamics::planetary_figures();
+  const auto& specs = stage_study_figures();
   return {.starts = count,
           .motions = spread.attractors,
           .low = {specs, spread.low},
@@ -104,22 +105,51 @@ StartSpread spread_of(const dynamics::PlanetaryStage& stage, const dynamics::Sim
 
 }  // namespace
 
+FigureSet stage_losses(const Scene& scene, const GearGeometry& geometry, std::size_t ring, const MeshResult& sun_mesh,
+                       const MeshResult& ring_mesh) {
+  FigureSet figures;
+  if (!has_friction(scene)) return figures;
+  const auto& set = geometry.rings.at(ring).set;
+  const auto& point = geometry.operating_point;
+  const auto losses = [&](const MeshResult& mesh, const char* name, const geometry::GearPair& pair) {
+    auto of_mesh =
+        mesh_losses(scene, {&pair, point.mesh_frequency, point.mean_mesh_force}, mesh.shares, scene.stage.planets);
+    of_mesh.mesh = name;
+    return of_mesh;
+  };
+  add_losses(figures, {losses(sun_mesh, sun_planet, set.sun_mesh()), losses(ring_mesh, ring_planet, set.ring_mesh())},
+             point.driving_power());
+  return figures;
+}
+
+const std::vector<FigureSpec>& stage_study_figures() {
+  static const auto list = [] {
+    auto specs = dynamics::planetary_figures();
+    specs.push_back(efficiency_figure());
+    return specs;
+  }();
+  return list;
+}
+
 std::unique_ptr<LumpedModel> planetary_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                              const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
   const auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
   const auto simulation = simulation_options(scene, stage);
+  const auto losses = stage_losses(scene, geometry, ring, sun_mesh, ring_mesh);
   return std::make_unique<LumpedModel>(
       identity_of(response_id(stage, simulation, sun_mesh, ring_mesh), std::string(dynamics::point_method())),
-      [stage, simulation](Answer wanted) -> StudyPoint {
+      [stage, simulation, losses](Answer wanted) -> StudyPoint {
         auto point = dynamics::evaluate_point(stage, {.simulation = simulation, .motion = wanted == Answer::all});
-        return {.figures = {dynamics::planetary_figures(), point.figures}, .poincare = std::move(point.poincare)};
+        point.figures.add(losses);
+        return {.figures = {stage_study_figures(), point.figures}, .poincare = std::move(point.poincare)};
       },
       LumpedModel::Abilities{
           [stage, simulation](int count, int seed) { return spread_of(stage, simulation, count, seed); },
-          [stage, simulation](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
+          [stage, simulation, losses](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
             auto point = dynamics::evaluate_point(
                 stage, {.simulation = dynamics::followed_from(simulation, start), .motion = true});
-            return {{.figures = {dynamics::planetary_figures(), point.figures}, .poincare = std::move(point.poincare)},
+            point.figures.add(losses);
+            return {{.figures = {stage_study_figures(), point.figures}, .poincare = std::move(point.poincare)},
                     std::move(point.end)};
           },
           [stage] { return dynamics::lumped_case(stage); },

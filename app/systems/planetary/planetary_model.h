@@ -28,4 +28,10 @@ namespace annulus::app {
 [[nodiscard]] ModelWays planetary_ways(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                        const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 
+/// Losses and efficiency (friction.h); nothing without [friction].
+[[nodiscard]] FigureSet stage_losses(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                     const MeshResult& sun_mesh, const MeshResult& ring_mesh);
+/// The results of studies.
+[[nodiscard]] const std::vector<FigureSpec>& stage_study_figures();
+
 }  // namespace annulus::app

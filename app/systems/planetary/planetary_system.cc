@@ -112,14 +112,7 @@ class PlanetarySystem final : public GearSystem {
 
   [[nodiscard]] FigureSet table_figures(std::size_t ring, const std::vector<const MeshResult*>& tables) const override {
     auto figures = GearSystem::table_figures(ring, tables);
-    if (!has_friction(scene())) return figures;
-    const auto& set = geometry().rings.at(ring).set;
-    const auto& point = geometry().operating_point;
-    const auto losses = [&](const MeshResult& mesh, const geometry::GearPair& pair) {
-      return mesh_losses(scene(), {&pair, point.mesh_frequency, point.mean_mesh_force}, mesh, scene().stage.planets);
-    };
-    add_losses(figures, {losses(*tables.front(), set.sun_mesh()), losses(*tables.back(), set.ring_mesh())},
-               point.driving_power());
+    figures.add(stage_losses(scene(), geometry(), ring, *tables.front(), *tables.back()));
     return figures;
   }
 
@@ -246,10 +239,10 @@ const std::vector<FigureSpec>& all_planetary_figures() {
 }  // namespace
 
 SystemKind planetary_kind() {
-  return {{"planetary", planetary_tables, check_planetary_scene,
-           [] { return figure_keys(dynamics::planetary_figures()); }, example_scene("ring_types").c_str()},
+  return {{"planetary", planetary_tables, check_planetary_scene, [] { return figure_keys(stage_study_figures()); },
+           example_scene("ring_types").c_str()},
           all_planetary_figures,
-          dynamics::planetary_figures,
+          stage_study_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PlanetarySystem>(scene); }};
 }
 

@@ -113,7 +113,7 @@ std::optional<dynamics::SqueezeFilm> squeeze_film(const Scene& scene, const geom
                                normal ? input.least_gap : input.least_gap / std::cos(pair.pinion().base_helix_angle())};
 }
 
-MeshLosses mesh_losses(const Scene& scene, const RollingMesh& rolling, const MeshResult& mesh, int number) {
+MeshLosses mesh_losses(const Scene& scene, const RollingMesh& rolling, const PairShares& given_shares, int number) {
   const auto& pair = *rolling.pair;
   const double mu = coefficient_of(scene, rolling), friction = mu * to_normal(rolling) * rolling.force;
   const double teeth = 1.0 / pair.pinion().teeth() + (pair.internal() ? -1.0 : 1.0) / pair.wheel().teeth();
@@ -121,7 +121,7 @@ MeshLosses mesh_losses(const Scene& scene, const RollingMesh& rolling, const Mes
     return number * friction * dynamics::sliding_of(pair, shares).distance.mean() * 2 * std::numbers::pi *
            rolling.frequency * teeth;
   };
-  const auto shares = known_shares(rolling, mesh.shares);
+  const auto shares = known_shares(rolling, given_shares);
   const auto sliding = dynamics::sliding_of(pair, shares);
   const double power = power_of(shares);
   // Torque of the friction over that of the mesh force, on the smaller of both gears.
@@ -129,23 +129,28 @@ MeshLosses mesh_losses(const Scene& scene, const RollingMesh& rolling, const Mes
                           (std::abs(sliding.side.mean()) * std::tan(pair.working_pressure_angle()) +
                            sliding.distance.mean() / std::min(pair.pinion().base_radius(), pair.wheel().base_radius()));
   const double of_phases = shares.phases % 2 == 0 ? std::abs(power_of(coarser(shares)) - power) : power;
-  return {mesh.model.mesh, mu, {power, of_phases + of_force * power}};
+  return {{}, mu, {power, of_phases + of_force * power}};
+}
+
+const FigureSpec& efficiency_figure() {
+  static const FigureSpec spec{
+      .key = "efficiency",
+      .title = "Efficiency of the meshes",
+      .symbol = "η",
+      .unit = "%",
+      .scale = 100,
+      .definition =
+          "1 less the power that all meshes lose in friction over the power of the bodies that drive, at the "
+          "mean mesh forces; bearings, seals and oil lose more",
+      .better = Better::larger,
+      .effort = FigureEffort::tables,
+      .headline = true,
+      .compared = true};
+  return spec;
 }
 
 std::vector<FigureSpec> friction_figure_specs(const std::vector<std::pair<std::string, std::string>>& meshes) {
-  std::vector<FigureSpec> specs = {
-      {.key = "efficiency",
-       .title = "Efficiency of the meshes",
-       .symbol = "η",
-       .unit = "%",
-       .scale = 100,
-       .definition =
-           "1 less the power that all meshes lose in friction over the power of the bodies that drive, at the "
-           "mean mesh forces; bearings, seals and oil lose more",
-       .better = Better::larger,
-       .effort = FigureEffort::tables,
-       .headline = true,
-       .compared = true}};
+  std::vector<FigureSpec> specs = {efficiency_figure()};
   for (const auto& [mesh, title] : meshes) {
     specs.push_back({.key = mesh + "_friction_loss_W",
                      .title = "Power lost in friction of the " + title,

@@ -56,11 +56,12 @@ struct MeshLosses {
   double coefficient = 0;
   Figure power;  ///< W, of all of them
 };
-/// `number`: of equal meshes. The error of the power is its change with half of the phases at which shares are known,
-/// and what friction changes of the force. Needs [friction].
-[[nodiscard]] MeshLosses mesh_losses(const Scene& scene, const RollingMesh& rolling, const MeshResult& mesh,
+/// `number`: of equal meshes, without name. The error of the power is its change with half of the phases at which
+/// shares are known, and what friction changes of the force. Needs [friction].
+[[nodiscard]] MeshLosses mesh_losses(const Scene& scene, const RollingMesh& rolling, const PairShares& shares,
                                      int number);
 
+[[nodiscard]] const FigureSpec& efficiency_figure();
 /// The results of meshes by name and title ("sun_planet", "sun mesh"), and the efficiency.
 [[nodiscard]] std::vector<FigureSpec> friction_figure_specs(
     const std::vector<std::pair<std::string, std::string>>& meshes);
