@@ -98,25 +98,26 @@ const std::vector<FigureSpec>& pair_study_figures() {
 }
 
 std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {
-  const auto losses = pair_losses(lumped.scene, lumped.geometry, lumped.mesh.shares);
+  const auto efficiency = efficiency_alone(pair_losses(lumped.scene, lumped.geometry, lumped.mesh.shares));
   auto simulation = pair_simulation(lumped.scene);
   simulation.confirmation = dynamics::Confirmation::where_needed;
   simulation.keep_series = false;
   return std::make_unique<LumpedModel>(
       identity_of(lumped.id(simulation), std::string(pair_point_method)),
-      [pair = lumped.pair, simulation, losses](Answer wanted) -> StudyPoint {
+      [pair = lumped.pair, simulation, efficiency](Answer wanted) -> StudyPoint {
         auto figures = dynamics::figures(dynamics::evaluate_pair(pair, simulation));
         if (wanted == Answer::all) figures.add(dynamics::frequency_figures(pair));
-        figures.add(losses);
+        figures.add(efficiency);
         return {.figures = {pair_study_figures(), figures}};
       },
       LumpedModel::Abilities{
           {},
-          [pair = lumped.pair, simulation, losses](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
+          [pair = lumped.pair, simulation,
+           efficiency](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
             const auto response = dynamics::evaluate_pair(pair, dynamics::followed_from(simulation, start));
             auto figures = dynamics::figures(response);
             figures.add(dynamics::frequency_figures(pair));
-            figures.add(losses);
+            figures.add(efficiency);
             return {{.figures = {pair_study_figures(), figures}}, response.end};
           },
           [pair = lumped.pair] { return dynamics::lumped_case(pair); },

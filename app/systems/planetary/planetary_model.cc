@@ -135,20 +135,20 @@ std::unique_ptr<LumpedModel> planetary_model(const Scene& scene, const GearGeome
                                              const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
   const auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
   const auto simulation = simulation_options(scene, stage);
-  const auto losses = stage_losses(scene, geometry, ring, sun_mesh, ring_mesh);
+  const auto efficiency = efficiency_alone(stage_losses(scene, geometry, ring, sun_mesh, ring_mesh));
   return std::make_unique<LumpedModel>(
       identity_of(response_id(stage, simulation, sun_mesh, ring_mesh), std::string(dynamics::point_method())),
-      [stage, simulation, losses](Answer wanted) -> StudyPoint {
+      [stage, simulation, efficiency](Answer wanted) -> StudyPoint {
         auto point = dynamics::evaluate_point(stage, {.simulation = simulation, .motion = wanted == Answer::all});
-        point.figures.add(losses);
+        point.figures.add(efficiency);
         return {.figures = {stage_study_figures(), point.figures}, .poincare = std::move(point.poincare)};
       },
       LumpedModel::Abilities{
           [stage, simulation](int count, int seed) { return spread_of(stage, simulation, count, seed); },
-          [stage, simulation, losses](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
+          [stage, simulation, efficiency](const dynamics::SystemState* start) -> LumpedModel::FollowedPoint {
             auto point = dynamics::evaluate_point(
                 stage, {.simulation = dynamics::followed_from(simulation, start), .motion = true});
-            point.figures.add(losses);
+            point.figures.add(efficiency);
             return {{.figures = {stage_study_figures(), point.figures}, .poincare = std::move(point.poincare)},
                     std::move(point.end)};
           },

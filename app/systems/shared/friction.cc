@@ -171,6 +171,12 @@ std::vector<FigureSpec> friction_figure_specs(const std::vector<std::pair<std::s
   return specs;
 }
 
+FigureSet efficiency_alone(const FigureSet& losses) {
+  FigureSet figures;
+  if (const auto* entry = losses.find(efficiency_figure().key)) figures.set(entry->key, entry->figure, entry->parts);
+  return figures;
+}
+
 void add_losses(FigureSet& figures, const std::vector<MeshLosses>& losses, double power) {
   Figure lost{0, 0};
   for (const auto& mesh : losses) {
@@ -179,7 +185,7 @@ void add_losses(FigureSet& figures, const std::vector<MeshLosses>& losses, doubl
     lost.value += mesh.power.value;
     lost.error += mesh.power.error;
   }
-  figures.set("efficiency", {1 - lost.value / power, lost.error / power});
+  figures.set(efficiency_figure().key, {1 - lost.value / power, lost.error / power});
 }
 
 void warn_of_shares(std::vector<Warning>& list, const Scene& scene, const std::vector<std::string>& prescribed) {

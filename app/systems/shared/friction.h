@@ -65,6 +65,8 @@ struct MeshLosses {
 /// The results of meshes by name and title ("sun_planet", "sun mesh"), and the efficiency.
 [[nodiscard]] std::vector<FigureSpec> friction_figure_specs(
     const std::vector<std::pair<std::string, std::string>>& meshes);
+/// Of these results the efficiency, for studies; nothing where there is none.
+[[nodiscard]] FigureSet efficiency_alone(const FigureSet& losses);
 /// `power`: W, of the bodies that drive.
 void add_losses(FigureSet& figures, const std::vector<MeshLosses>& losses, double power);
 
