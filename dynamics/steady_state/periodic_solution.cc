@@ -65,14 +65,15 @@ double sampling_tolerance(double steady_tolerance) {
   return std::min(3 * steady_tolerance, std::max(steady_tolerance, tight));
 }
 
-PeriodicOptions balance_options(const SteadyProblem& problem, const SimulationOptions& options) {
+/// `period`: mesh cycles that are sampled.
+PeriodicOptions balance_options(const SteadyProblem& problem, int period, const SimulationOptions& options) {
   PeriodicOptions balance = options.periodic;
   balance.samples_per_cycle = options.samples_per_cycle;
   if (options.sampling == Sampling::as_needed) {
     balance.sampling_tolerance = sampling_tolerance(options.steady_tolerance) * problem.force_scale;
     // Newton's method stores dozens of vectors of unknowns, a look stores a few.
-    balance.max_samples_per_cycle = most_samples_per_cycle(problem.period_in_cycles);
-    balance.max_samples_ahead = samples_within(problem.period_in_cycles, 1 << 15);
+    balance.max_samples_per_cycle = most_samples_per_cycle(period);
+    balance.max_samples_ahead = samples_within(period, 1 << 15);
   }
   return balance;
 }
@@ -80,12 +81,15 @@ PeriodicOptions balance_options(const SteadyProblem& problem, const SimulationOp
 PeriodicSearch solve_harmonic_balance(const LumpedSystem& system, const SteadyProblem& problem, int cycles,
                                       const SimulationOptions& options) {
   const int period = problem.period_in_cycles;
-  const auto balance = balance_options(problem, options);
   const double duration = period / problem.mesh_frequency;
   PeriodicResponse periodic;
   const auto angles = period > long_window ? two_frequencies(system, problem.mesh_frequency, period) : std::nullopt;
-  if (angles) periodic = two_frequency_response(system, *angles, duration, period, balance);
-  if (!periodic.converged) periodic = periodic_response(system, duration, period, balance);
+  constexpr int usual_rows = 5;
+  if (angles)
+    periodic = two_frequency_response(system, *angles, duration, period,
+                                      balance_options(problem, usual_rows * angles->cycles, options));
+  if (!periodic.converged)
+    periodic = periodic_response(system, duration, period, balance_options(problem, period, options));
   // Where the solution with half the samples already satisfies the finer ones, no step is taken and only the residual
   // is known of the error.
   periodic.sampling_difference = std::max(periodic.largest_difference() / problem.force_scale, periodic.residual);
