@@ -84,10 +84,10 @@ PeriodicSearch solve_harmonic_balance(const LumpedSystem& system, const SteadyPr
   const double duration = period / problem.mesh_frequency;
   PeriodicResponse periodic;
   const auto angles = period > long_window ? two_frequencies(system, problem.mesh_frequency, period) : std::nullopt;
-  constexpr int usual_rows = 5;
+  // A few values of the second angle take a multiple of the first one's cycles, with fewer iterations.
   if (angles)
     periodic = two_frequency_response(system, *angles, duration, period,
-                                      balance_options(problem, usual_rows * angles->cycles, options));
+                                      balance_options(problem, 2 * angles->cycles, options));
   if (!periodic.converged)
     periodic = periodic_response(system, duration, period, balance_options(problem, period, options));
   // Where the solution with half the samples already satisfies the finer ones, no step is taken and only the residual
