@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -204,6 +205,24 @@ void HarmonicBalance::forces(const Eigen::MatrixXd& approach, const Eigen::Matri
                                                     rate.middleRows(begin, samples()).rowwise() - shift_rate_.row(row),
                                                     of_row);
     force.middleRows(begin, samples()) = of_row;
+  }
+}
+
+void HarmonicBalance::at_instants(const Eigen::MatrixXd& approach, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force,
+                                  std::vector<LumpedSystem::Contact>& contact) {
+  const Eigen::Index total = approach.rows();
+  force.resize(total, approach.cols());
+  contact.resize(static_cast<std::size_t>(force.size()));
+  Eigen::MatrixXd of_row;
+  std::vector<LumpedSystem::Contact> contact_of_row;
+  for (int row = 0; row < rows(); ++row) {
+    const Eigen::Index begin = row * samples();
+    meshes().evaluate_at_instants(approach.middleRows(begin, samples()).rowwise() - shift_.row(row),
+                                  rate.middleRows(begin, samples()).rowwise() - shift_rate_.row(row), of_row,
+                                  contact_of_row);
+    force.middleRows(begin, samples()) = of_row;
+    for (Eigen::Index m = 0; m < approach.cols(); ++m)
+      std::copy_n(contact_of_row.begin() + m * samples(), samples(), contact.begin() + m * total + begin);
   }
 }
 

@@ -85,6 +85,9 @@ class HarmonicBalance {
   void at_deflection(const Eigen::VectorXd& deflection, Eigen::MatrixXd& approach, Eigen::MatrixXd& rate);
   /// Forces (N) of approaches (m) and rates (m/s); stores their derivatives.
   void forces(const Eigen::MatrixXd& approach, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force);
+  /// Forces (N) at the instants themselves (just after a jump), and the flanks that press, mesh after mesh.
+  void at_instants(const Eigen::MatrixXd& approach, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force,
+                   std::vector<LumpedSystem::Contact>& contact);
   /// Change of the forces with the approaches at the last `forces` or `residual`.
   [[nodiscard]] Eigen::MatrixXd force_change(const Eigen::MatrixXd& change) const;
   /// A function of both angles at `count` times of the first angle's spacing, from time 0.

@@ -83,16 +83,16 @@ std::optional<Eigen::MatrixXd> quasi_static(const LumpedSystem& system, Harmonic
   }
 }
 
-void fill(PeriodicResponse& response, SampledMeshes& meshes_of_window, const Eigen::MatrixXd& approach,
-          const Eigen::MatrixXd& rate) {
+/// Forces over a window of `count` samples, and the shares of flanks that press.
+void fill(PeriodicResponse& response, HarmonicBalance& balance, const Eigen::MatrixXd& approach, Eigen::Index count) {
   const Eigen::Index samples = approach.rows(), meshes = approach.cols();
   Eigen::MatrixXd force;
   std::vector<LumpedSystem::Contact> contact;
-  meshes_of_window.evaluate_at_instants(approach, rate, force, contact);
+  balance.at_instants(approach, balance.rate_of(approach), force, contact);
   response.coarse_force = std::move(response.force);
-  response.force = force.transpose();
-  response.time.resize(samples);
-  for (Eigen::Index i = 0; i < samples; ++i) response.time[i] = meshes_of_window.time(i);
+  response.force = balance.along(force, count).transpose();
+  response.time.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) response.time[i] = balance.meshes().time(i);
   const auto share = [&](Eigen::Index m, LumpedSystem::Contact state) {
     return static_cast<double>(std::count(contact.begin() + m * samples, contact.begin() + (m + 1) * samples, state)) /
            static_cast<double>(samples);
@@ -270,16 +270,8 @@ class Levels {
       approach_ = solve_balance(balance, approach_, reference_.scale, options, response_);
       failed_ = failed_ || response_.residual > std::max(options.tolerance, level < samples ? out_of_reach : 0.0);
     }
-    if (2 * level >= samples) fill_window(response_, balance);
+    if (2 * level >= samples) fill(response_, balance, approach_, in_window(level));
     if (level == samples) fill_motion(response_, balance);
-  }
-
-  void fill_window(PeriodicResponse& response, HarmonicBalance& balance) {
-    const Eigen::MatrixXd rate = balance.rate_of(approach_);
-    if (grid_.waves.empty()) return fill(response, balance.meshes(), approach_, rate);
-    const Eigen::Index count = in_window(balance.samples());
-    SampledMeshes window(system_, period_, count);
-    fill(response, window, balance.along(approach_, count), balance.along(rate, count));
   }
 
   void fill_motion(PeriodicResponse& response, HarmonicBalance& balance) {
@@ -325,7 +317,7 @@ class Levels {
       auto finer = response_;
       approach_ = solve_balance(balance, approach_, reference_.scale, options_, finer);
       if (!finer.converged) break;
-      fill_window(finer, balance);
+      fill(finer, balance, approach_, in_window(level));
       fill_motion(finer, balance);
       set_coarse_difference(finer, per_cycle);
       finer.coarse_difference = std::max(finer.coarse_difference, rows_difference_);

@@ -75,10 +75,10 @@ struct PeriodicResponse : PeriodicSolution, ResponseWindow {
 [[nodiscard]] PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
                                                  const PeriodicOptions& options = {});
 
-/// The same over two angles [KrackGross2019, sect. 2.6], as a response over one `period` of the whole: the motion is a
-/// function of both, and the forces are evaluated in time where the period passes. Values of the second angle are added
-/// until they change no force by more than a third of the sampling tolerance; what they changed last counts as a
-/// difference. It does not converge where they would take longer than a whole period.
+/// The same over two angles [KrackGross2019, sect. 2.6], as a response over one `period` of the whole: motion and
+/// forces are functions of both, read where the period passes. Values of the second angle are added until they change
+/// no force by more than a third of the sampling tolerance; what they changed last counts as a difference. It does not
+/// converge where they would take longer than a whole period.
 [[nodiscard]] PeriodicResponse two_frequency_response(const LumpedSystem& system, const TwoFrequencies& angles,
                                                       double period, int cycles, const PeriodicOptions& options = {});
 
