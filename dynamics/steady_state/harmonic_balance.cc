@@ -312,15 +312,19 @@ Eigen::MatrixXcd amplitudes_over_rows(const Eigen::Ref<const Eigen::VectorXd>& v
 Eigen::MatrixXd HarmonicBalance::along(const Eigen::MatrixXd& values, Eigen::Index count) const {
   if (rows() == 1) return values.replicate((count + values.rows() - 1) / values.rows(), 1).topRows(count);
   const double angle = problem_.grid.second_rate * problem_.grid.period / static_cast<double>(samples());
+  const int waves = (rows() - 1) / 2;
+  Eigen::ArrayXXcd turn(count, waves);  // twice exp(i l angle)
+  for (int l = 0; l < waves; ++l)
+    for (Eigen::Index i = 0; i < count; ++i) turn(i, l) = std::polar(2.0, static_cast<double>((l + 1) * i) * angle);
   Eigen::MatrixXd result(count, values.cols());
   for (Eigen::Index m = 0; m < values.cols(); ++m) {
     const Eigen::MatrixXcd amplitudes = amplitudes_over_rows(values.col(m), rows());
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::Index at = i % samples();
-      double value = amplitudes(at, 0).real();
-      for (Eigen::Index l = 1; l < amplitudes.cols(); ++l)
-        value += 2 * (amplitudes(at, l) * std::polar(1.0, static_cast<double>(l * i) * angle)).real();
-      result(i, m) = value;
+    for (Eigen::Index begin = 0; begin < count; begin += samples()) {
+      const Eigen::Index part = std::min(samples(), count - begin);
+      auto at = result.col(m).segment(begin, part).array();
+      at = amplitudes.col(0).head(part).real().array();
+      for (int l = 0; l < waves; ++l)
+        at += (amplitudes.col(l + 1).head(part).array() * turn.col(l).segment(begin, part)).real();
     }
   }
   return result;

@@ -183,6 +183,7 @@ class Levels {
     set_coarse_difference(response_, options_.samples_per_cycle);
     response_.coarse_difference = std::max(response_.coarse_difference, rows_difference_);
     if (response_.converged && options_.sampling_tolerance) refine();
+    fill_motion();
     return std::move(response_);
   }
 
@@ -231,7 +232,7 @@ class Levels {
   bool settle_rows(Eigen::Index level) {
     Eigen::MatrixXd before;
     const double enough = options_.sampling_tolerance.value_or(0) > 0
-                              ? *options_.sampling_tolerance / 3
+                              ? *options_.sampling_tolerance / 10
                               : rough_tolerance * reference_.scale * mean_.maxCoeff();
     for (;;) {
       HarmonicBalance balance(*problem_, level);
@@ -271,17 +272,16 @@ class Levels {
       failed_ = failed_ || response_.residual > std::max(options.tolerance, level < samples ? out_of_reach : 0.0);
     }
     if (2 * level >= samples) fill(response_, balance, approach_, in_window(level));
-    if (level == samples) fill_motion(response_, balance);
   }
 
-  void fill_motion(PeriodicResponse& response, HarmonicBalance& balance) {
-    if (balance.rows() == 1) return balance.motion(response.displacement, response.velocity);
-    Eigen::MatrixXd residual(approach_.rows(), approach_.cols()), displacement, velocity;
+  void fill_motion() {
+    HarmonicBalance balance(*problem_, approach_.rows() / grid_.rows);
+    Eigen::MatrixXd residual(approach_.rows(), approach_.cols());
     balance.residual(approach_, residual);
-    balance.motion(displacement, velocity);
-    const Eigen::Index count = in_window(balance.samples());
-    response.displacement = balance.along(displacement.transpose(), count).transpose();
-    response.velocity = balance.along(velocity.transpose(), count).transpose();
+    balance.motion(response_.displacement, response_.velocity);
+    if (balance.rows() == 1) return;
+    for (auto* motion : {&response_.displacement, &response_.velocity})
+      *motion = balance.along(motion->transpose(), in_window(balance.samples())).transpose();
   }
 
   /// One iteration at more samples, with constant stiffness: harmonics beyond those of the solution come out with their
@@ -313,12 +313,12 @@ class Levels {
       const Eigen::Index level = samples_of(per_cycle);
       resolve(*problem_, level);
       HarmonicBalance balance(*problem_, level);
-      approach_ = HarmonicBalance::refined(approach_, 2, grid_.rows);
       auto finer = response_;
-      approach_ = solve_balance(balance, approach_, reference_.scale, options_, finer);
+      Eigen::MatrixXd approach = HarmonicBalance::refined(approach_, 2, grid_.rows);
+      approach = solve_balance(balance, approach, reference_.scale, options_, finer);
       if (!finer.converged) break;
+      approach_ = std::move(approach);
       fill(finer, balance, approach_, in_window(level));
-      fill_motion(finer, balance);
       set_coarse_difference(finer, per_cycle);
       finer.coarse_difference = std::max(finer.coarse_difference, rows_difference_);
       look_ahead(finer);

@@ -77,7 +77,7 @@ struct PeriodicResponse : PeriodicSolution, ResponseWindow {
 
 /// The same over two angles [KrackGross2019, sect. 2.6], as a response over one `period` of the whole: motion and
 /// forces are functions of both, read where the period passes. Values of the second angle are added until they change
-/// no force by more than a third of the sampling tolerance; what they changed last counts as a difference. It does not
+/// no force by more than a tenth of the sampling tolerance; what they changed last counts as a difference. It does not
 /// converge where they would take longer than a whole period.
 [[nodiscard]] PeriodicResponse two_frequency_response(const LumpedSystem& system, const TwoFrequencies& angles,
                                                       double period, int cycles, const PeriodicOptions& options = {});
