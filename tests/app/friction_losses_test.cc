@@ -124,6 +124,22 @@ BOOST_AUTO_TEST_CASE(friction_of_a_pair) {
   BOOST_TEST((results["efficiency"].value > 0.97 && results["efficiency"].value < 0.999));
 }
 
+// Losses are proportional to the coefficient.
+BOOST_AUTO_TEST_CASE(efficiency_in_a_sweep) {
+  const test::TemporaryFolder folder("annulus_friction");
+  write_file(folder.path() / "scene.toml",
+             test::quick_scene() +
+                 "[friction]\ncoefficient = 0.05\n[[sweep]]\ninput = \"friction.coefficient\"\n"
+                 "values = [0, 0.02, 0.06]\n");
+  const auto outcome = test::run_program(folder.path(), "run scene.toml -o out");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  const auto csv = Csv::read(folder.path() / "out" / "held" / "dynamics" / "sweep_1.csv");
+  const auto column = csv.column("efficiency");
+  BOOST_TEST_REQUIRE(csv.rows.size() == 3U);
+  BOOST_TEST(csv.rows[0][column] == 1);
+  BOOST_TEST(std::abs((1 - csv.rows[2][column]) / (1 - csv.rows[1][column]) - 3) < 1e-9);
+}
+
 // Oil acts where teeth separate: it changes nothing else, and softens their impacts.
 BOOST_AUTO_TEST_CASE(oil_within_the_backlash) {
   const test::TemporaryFolder folder("annulus_friction");
