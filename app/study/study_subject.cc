@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "app/model/run_options.h"
 #include "app/model/system_run.h"
@@ -16,19 +15,23 @@ namespace annulus::app {
 
 namespace {
 
-/// The results of a scene's lumped model: without those of shafts where it has none. They outlive all studies.
+/// The results of a scene's lumped model: without those of shafts where it has none, and those that the scene does not
+/// ask for. They outlive all studies.
 const std::vector<FigureSpec>& figures_of(const Scene& scene) {
   const auto& kind = system_kind(scene.stage.kind);
-  const auto& all = kind.model_figures();
-  if (!scene.rotors.empty() || !kind.scene.gears) return all;
+  const auto system = make_system(scene);
+  const bool shafts = !scene.rotors.empty() || !kind.scene.gears;
+  std::vector<FigureSpec> list;
+  std::string keys = scene.stage.kind;
+  for (const auto& spec : kind.model_figures()) {
+    if ((spec.key == dynamics::shaft_key && !shafts) || !system->gives(spec.key)) continue;
+    list.push_back(spec);
+    keys += " " + spec.key;
+  }
   static std::mutex lock;
   static std::map<std::string, std::vector<FigureSpec>> kept;
   const std::lock_guard guard(lock);
-  auto& list = kept[scene.stage.kind];
-  if (list.empty())
-    std::copy_if(all.begin(), all.end(), std::back_inserter(list),
-                 [](const FigureSpec& spec) { return spec.key != dynamics::shaft_key; });
-  return list;
+  return kept.try_emplace(keys, std::move(list)).first->second;
 }
 
 }  // namespace

@@ -72,6 +72,10 @@ class PairSystem final : public GearSystem {
     save_pair_errors(pair_errors(scene()), options.out / "errors");
   }
 
+  [[nodiscard]] bool gives(const std::string& result) const override {
+    return result != efficiency_figure().key || has_friction(scene());
+  }
+
   [[nodiscard]] FigureSet table_figures(std::size_t /*variant*/,
                                         const std::vector<const MeshResult*>& tables) const override {
     const PairMesh mesh(*tables.front());

@@ -110,6 +110,10 @@ class PlanetarySystem final : public GearSystem {
     }
   }
 
+  [[nodiscard]] bool gives(const std::string& result) const override {
+    return result != efficiency_figure().key || has_friction(scene());
+  }
+
   [[nodiscard]] FigureSet table_figures(std::size_t ring, const std::vector<const MeshResult*>& tables) const override {
     auto figures = GearSystem::table_figures(ring, tables);
     figures.add(stage_losses(scene(), geometry(), ring, *tables.front(), *tables.back()));
