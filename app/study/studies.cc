@@ -102,10 +102,21 @@ void check_transients(const Scene& scene) {
   }
 }
 
+void check_objective(const Scene& scene) {
+  if (!scene.optimise) return;
+  for (const auto& result : scene.optimise->objective)
+    if (find_figure(study_figures(scene), result) == nullptr)
+      throw InputError(
+          fmt::format("{}: optimise.objective: this scene has no {}, for which it lacks a table (shafts need "
+                      "[[rotor]], losses [friction])",
+                      place_text(scene, "optimise.objective"), result));
+}
+
 }  // namespace
 
 void check_studies(const Scene& scene) {
   if (!scene.dynamics) return;
+  check_objective(scene);
   check_directions(scene);
   check_transients(scene);
   for (const auto& study_case : all_cases(scene)) (void)change_scene(scene, study_case);

@@ -13,11 +13,7 @@
 
 namespace annulus::app {
 
-namespace {
-
-/// The results of a scene's lumped model: without those of shafts where it has none, and those that the scene does not
-/// ask for. They outlive all studies.
-const std::vector<FigureSpec>& figures_of(const Scene& scene) {
+const std::vector<FigureSpec>& study_figures(const Scene& scene) {
   const auto& kind = system_kind(scene.stage.kind);
   const auto system = make_system(scene);
   const bool shafts = !scene.rotors.empty() || !kind.scene.gears;
@@ -34,13 +30,11 @@ const std::vector<FigureSpec>& figures_of(const Scene& scene) {
   return kept.try_emplace(keys, std::move(list)).first->second;
 }
 
-}  // namespace
-
 StudySubject::StudySubject(const SystemRun& nominal, const RunOptions& options)
     : nominal_(nominal),
       options_(options),
       variants_(make_system(nominal.scene)->variants()),
-      figures_(figures_of(nominal.scene)),
+      figures_(study_figures(nominal.scene)),
       tables_(nominal.tables) {}
 
 const Scene& StudySubject::scene() const { return nominal_.scene; }

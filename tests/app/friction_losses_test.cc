@@ -180,6 +180,20 @@ BOOST_AUTO_TEST_CASE(keys_of_friction) {
   says("coefficient = 1.5\n", "1.5");
 }
 
+BOOST_AUTO_TEST_CASE(efficiency_as_an_objective_needs_friction) {
+  const test::TemporaryFolder folder("annulus_friction");
+  const auto scene = test::quick_scene() +
+                     "[optimise]\nobjective = [\"efficiency\"]\ngoal = \"largest\"\n[[optimise.variable]]\n"
+                     "input = \"stage.power_kW\"\nlow = 1000\nhigh = 4000\n";
+  write_file(folder.path() / "without.toml", scene);
+  write_file(folder.path() / "with.toml", scene + "[friction]\ncoefficient = 0.05\n");
+  const auto refused = test::run_program(folder.path(), "check without.toml");
+  BOOST_TEST(refused.status != 0);
+  BOOST_TEST(refused.err.find("[friction]") != std::string::npos, refused.err);
+  const auto accepted = test::run_program(folder.path(), "check with.toml");
+  BOOST_TEST(accepted.status == 0, accepted.err);
+}
+
 BOOST_AUTO_TEST_CASE(branches_are_refused_with_friction) {
   const test::TemporaryFolder folder("annulus_friction");
   write_file(folder.path() / "scene.toml",
