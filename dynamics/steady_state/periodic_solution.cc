@@ -84,10 +84,12 @@ PeriodicSearch solve_harmonic_balance(const LumpedSystem& system, const SteadyPr
   const double duration = period / problem.mesh_frequency;
   PeriodicResponse periodic;
   const auto angles = period > long_window ? two_frequencies(system, problem.mesh_frequency, period) : std::nullopt;
-  // A few values of the second angle take a multiple of the first one's cycles, with fewer iterations.
+  // A few values of the second angle take a multiple of the first one's cycles. Studies of many points have half the
+  // samples.
+  const int times = options.confirmation == Confirmation::always ? 2 : 4;
   if (angles)
     periodic = two_frequency_response(system, *angles, duration, period,
-                                      balance_options(problem, 2 * angles->cycles, options));
+                                      balance_options(problem, times * angles->cycles, options));
   if (!periodic.converged)
     periodic = periodic_response(system, duration, period, balance_options(problem, period, options));
   // Where the solution with half the samples already satisfies the finer ones, no step is taken and only the residual
