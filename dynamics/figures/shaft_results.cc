@@ -47,7 +47,8 @@ std::vector<ShaftResult> shaft_results(const LumpedSystem& system, const std::ve
   for (const auto& rotor : rotors) {
     const auto& end = end_of(rotor, rotors, ends);
     const auto chain = rotors_of(rotors, end.name);
-    const double load = system.load()[system.find(rotors[chain.back()].name + "_u")];
+    const int dof = system.find(rotors[chain.back()].name + "_u");
+    const double load = system.load()[dof] - system.load(LoadCause::losses)[dof];
     auto& shaft = list.emplace_back(shaft_result(system, rotor.name + "_shaft", {load, end.radius}, found));
     shaft.name = rotor.name;
     shaft.on = rotor.on;

@@ -74,7 +74,11 @@ LumpedSystem with_balanced_friction(const LumpedSystem& system, const std::vecto
   const Eigen::MatrixXd neutral = found.shapes().leftCols(free), momentum = system.mass() * neutral;
 
   const MeanForces mean(system, neutral);
+  LumpedSystemBuilder builder;
+  builder.add(system);
+  builder.keep_friction_from(neutral);
   const auto places = torque_places(system, rotors, ends);
+  if (places.empty()) return builder.build();
   // A single free rotation turns the way in which friction brakes it.
   const double sense = neutral.col(0).dot(mean.friction(system.load())) < 0 ? 1 : -1;
   const auto power = [&](const TorquePlace& place) {
@@ -101,9 +105,6 @@ LumpedSystem with_balanced_friction(const LumpedSystem& system, const std::vecto
     losses -= momentum * (neutral.transpose() * losses);
     load = system.load() + losses + friction - momentum * (neutral.transpose() * friction);
   }
-  LumpedSystemBuilder builder;
-  builder.add(system);
-  builder.keep_friction_from(neutral);
   for (Eigen::Index i = 0; i < losses.size(); ++i)
     builder.add_load({{static_cast<int>(i), 1.0}}, losses[i], LoadCause::losses);
   return builder.build();

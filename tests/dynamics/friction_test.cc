@@ -344,6 +344,15 @@ BOOST_AUTO_TEST_CASE(motion_of_a_pair_by_its_teeth) {
                  "pitch point passed within a 256th of a cycle; squares of losses");
 }
 
+// Errors alone excite a pair without torque.
+BOOST_AUTO_TEST_CASE(friction_without_torque) {
+  auto pair = lumped(spur_pair(), 0.1);
+  pair.pinion_torque = 0;
+  const auto system = assemble(pair);
+  BOOST_TEST(system.has_friction());
+  BOOST_TEST(system.load(LoadCause::losses).isZero(0));
+}
+
 // What is in equilibrium does not begin to move, and small changes act as the Jacobian says.
 BOOST_AUTO_TEST_CASE(equilibrium_and_slopes) {
   const auto gears = spur_pair();
