@@ -12,8 +12,8 @@ namespace annulus::dynamics {
 /// meshes lose in friction (LoadCause::losses); where several rotations are free, those of all bodies but the strongest
 /// that drives. Of what then still acts on a free rotation, which nothing elastic feels, friction is kept away.
 ///
-/// A system without friction, or without a free rotation, remains as it is; without torques nothing is taken. Throws InputError where no torque of `ends`
-/// can balance the friction.
+/// A system without friction, or without a free rotation, remains as it is; without torques nothing is taken. Throws
+/// InputError where no torque of `ends` can balance the friction.
 [[nodiscard]] LumpedSystem with_balanced_friction(const LumpedSystem& system, const std::vector<Rotor>& rotors,
                                                   const std::vector<ShaftEnd>& ends);
 
