@@ -178,8 +178,8 @@ class Levels {
       }
     problem_.emplace(balance_problem(reduced_, *linear_, mean_, grid_, samples));
     first_level(samples / coarsening, samples);
-    if (grid_.waves.empty() || settle_rows(samples / coarsening))
-      for (Eigen::Index level = samples / coarsening; level <= samples; level *= 2) next_level(level, samples);
+    if (!grid_.waves.empty()) settle_rows(samples / coarsening);
+    for (Eigen::Index level = samples / coarsening; level <= samples; level *= 2) next_level(level, samples);
     set_coarse_difference(response_, options_.samples_per_cycle);
     response_.coarse_difference = std::max(response_.coarse_difference, rows_difference_);
     if (response_.converged && options_.sampling_tolerance) refine();
@@ -228,8 +228,8 @@ class Levels {
     failed_ = response_.residual > std::max(options.tolerance, level < samples ? out_of_reach : 0.0);
   }
 
-  /// Values of the second angle until more of them change nothing. Returns whether so many are worth it.
-  bool settle_rows(Eigen::Index level) {
+  /// Values of the second angle until more of them change nothing. Fails where so many are not worth it.
+  void settle_rows(Eigen::Index level) {
     Eigen::MatrixXd before;
     const double enough = options_.sampling_tolerance.value_or(0) > 0
                               ? *options_.sampling_tolerance / 10
@@ -241,7 +241,7 @@ class Levels {
       balance.forces(approach_, balance.rate_of(approach_), force_);
       const Eigen::MatrixXd force = balance.along(force_, in_window(level));
       if (before.size() > 0) rows_difference_ = (force - before).cwiseAbs().maxCoeff();
-      if (failed_ || (before.size() > 0 && rows_difference_ <= enough)) return true;
+      if (failed_ || (before.size() > 0 && rows_difference_ <= enough)) return;
       before = force;
       const int rows = 2 * grid_.rows - 1;
       if (2 * rows * first_cycles_ > cycles_) {
@@ -250,7 +250,7 @@ class Levels {
             "{} values of the second angle change forces by {:.2g} N, and more take as long as a whole period",
             grid_.rows, rows_difference_);
         failed_ = true;
-        return true;
+        return;
       }
       approach_ = balance.with_rows(approach_, rows);
       grid_.rows = rows;
