@@ -157,6 +157,10 @@ double GearPair::wheel_roll_length(double planet_roll) const {
   return internal() ? length + planet_roll : length - planet_roll;
 }
 
+double GearPair::relative_curvature(double pinion_roll) const {
+  return 1 / pinion_roll + (internal() ? -1 : 1) / wheel_roll_length(pinion_roll);
+}
+
 void GearPair::check_tips() const {
   const auto name = pair_name(pinion_, wheel_);
   const char* wheel_word = internal() ? "ring" : "sun";

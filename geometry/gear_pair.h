@@ -69,6 +69,8 @@ class GearPair {
   /// Roll length on the wheel of the point that touches the pinion at `pinion_roll`.
   /// external: a sin(alpha_w) - rho; internal: a sin(alpha_w) + rho.
   [[nodiscard]] double wheel_roll_length(double pinion_roll) const;
+  /// 1/m, of both involutes together where they touch: 1/rho + 1/rho_wheel, internal 1/rho - 1/rho_wheel.
+  [[nodiscard]] double relative_curvature(double pinion_roll) const;
 
  private:
   void check_tips() const;

@@ -95,8 +95,8 @@ class GearSystem {
   /// The results of the stiffness tables of a variant of run_variants alone.
   [[nodiscard]] virtual FigureSet table_figures(std::size_t variant,
                                                 const std::vector<const MeshResult*>& tables) const;
-  /// Whether the lumped model has this result for the scene.
-  [[nodiscard]] virtual bool gives(const std::string& /*result*/) const { return true; }
+  /// The table without which the lumped model of this scene does not have a result; empty: it has it.
+  [[nodiscard]] virtual std::string table_for(const std::string& result) const;
   /// What the coupling of a computed mesh cost; nothing where it was reused.
   [[nodiscard]] virtual std::optional<CostRun> actual_coupling(CostRun /*size*/, const MeshResult& /*mesh*/) const {
     return std::nullopt;

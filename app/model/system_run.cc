@@ -7,6 +7,7 @@
 #include "app/model/mesh_figures.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "dynamics/figures/shaft_results.h"
 
 namespace annulus::app {
 
@@ -106,6 +107,10 @@ FigureSet GearSystem::table_figures(std::size_t /*variant*/, const std::vector<c
   for (const auto* mesh : tables)
     if (mesh->table.phases() > 0) figures.add(mesh_figures(*mesh));
   return figures;
+}
+
+std::string GearSystem::table_for(const std::string& result) const {
+  return result == dynamics::shaft_key && scene().rotors.empty() ? "[[rotor]]" : "";
 }
 
 std::vector<RunVariant> GearSystem::run_variants() const {

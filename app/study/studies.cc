@@ -104,12 +104,11 @@ void check_transients(const Scene& scene) {
 
 void check_objective(const Scene& scene) {
   if (!scene.optimise) return;
+  const auto system = make_system(scene);
   for (const auto& result : scene.optimise->objective)
-    if (find_figure(study_figures(scene), result) == nullptr)
-      throw InputError(
-          fmt::format("{}: optimise.objective: this scene has no {}, for which it lacks a table (shafts need "
-                      "[[rotor]], losses [friction])",
-                      place_text(scene, "optimise.objective"), result));
+    if (const auto table = system->table_for(result); !table.empty())
+      throw InputError(fmt::format("{}: optimise.objective: a scene without {} has no {}",
+                                   place_text(scene, "optimise.objective"), table, result));
 }
 
 }  // namespace

@@ -9,18 +9,16 @@
 #include "app/model/table_errors.h"
 #include "core/errors.h"
 #include "core/log.h"
-#include "dynamics/figures/shaft_results.h"
 
 namespace annulus::app {
 
 const std::vector<FigureSpec>& study_figures(const Scene& scene) {
   const auto& kind = system_kind(scene.stage.kind);
   const auto system = make_system(scene);
-  const bool shafts = !scene.rotors.empty() || !kind.scene.gears;
   std::vector<FigureSpec> list;
   std::string keys = scene.stage.kind;
   for (const auto& spec : kind.model_figures()) {
-    if ((spec.key == dynamics::shaft_key && !shafts) || !system->gives(spec.key)) continue;
+    if (!system->table_for(spec.key).empty()) continue;
     list.push_back(spec);
     keys += " " + spec.key;
   }

@@ -15,8 +15,7 @@
 
 namespace annulus::app {
 
-/// The results of a scene's lumped model: without those of shafts where it has none, and those that the scene does not
-/// ask for. They outlive all studies.
+/// The results of a scene's lumped model, without those for which it lacks a table. They outlive all studies.
 [[nodiscard]] const std::vector<FigureSpec>& study_figures(const Scene& scene);
 
 /// What studies vary: the lumped models of a scene in one or more variants (rings), on the tables of the nominal run

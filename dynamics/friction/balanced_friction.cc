@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <utility>
 
 #include "core/errors.h"
 #include "dynamics/modes/modes.h"
+#include "dynamics/steady_state/frequency_response.h"
 
 namespace annulus::dynamics {
 
@@ -32,30 +32,28 @@ std::vector<TorquePlace> torque_places(const LumpedSystem& system, const std::ve
   return places;
 }
 
-/// Mean forces of the meshes under constant loads, with stiffnesses that do not change.
-class MeanForces {
+/// Mean friction of the meshes under constant loads, with stiffnesses that do not change.
+class MeanFriction {
  public:
-  MeanForces(const LumpedSystem& system, const Eigen::MatrixXd& neutral)
-      : vectors_(system.mesh_vectors()),
-        tangent_(mesh_stiffness_matrix(system, mean_stiffnesses(system))),
-        friction_(Eigen::MatrixXd::Zero(vectors_.rows(), vectors_.cols())) {
-    const Eigen::MatrixXd momentum = system.mass() * neutral;
-    factor_.compute(system.stiffness() + vectors_ * tangent_ * vectors_.transpose() +
-                    tangent_.diagonal().maxCoeff() / momentum.cwiseAbs2().maxCoeff() * momentum * momentum.transpose());
-    for (Eigen::Index m = 0; m < vectors_.cols(); ++m)
+  explicit MeanFriction(const LumpedSystem& system)
+      : stiffness_(mean_stiffnesses(system)),
+        linear_(system, stiffness_),
+        friction_(Eigen::MatrixXd::Zero(system.dofs(), stiffness_.size())) {
+    for (Eigen::Index m = 0; m < stiffness_.size(); ++m)
       for (const auto& share : system.meshes()[static_cast<std::size_t>(m)].friction)
         for (const auto& [i, factor] : share.along) friction_(i, m) += factor * share.curve.mean();
   }
 
-  /// The mean friction, N, one per DOF.
-  [[nodiscard]] Eigen::VectorXd friction(const Eigen::VectorXd& load) const {
-    const Eigen::VectorXd force = tangent_ * vectors_.transpose() * factor_.solve(load);
-    return -friction_ * force.cwiseAbs();
+  /// N, one per DOF.
+  [[nodiscard]] Eigen::VectorXd under(const Eigen::VectorXd& load) const {
+    const Eigen::VectorXd approach = linear_.mesh_vectors().transpose() * linear_.static_displacement(load);
+    return -friction_ * stiffness_.cwiseProduct(approach).cwiseAbs();
   }
 
  private:
-  Eigen::MatrixXd vectors_, tangent_, friction_;
-  Eigen::LDLT<Eigen::MatrixXd> factor_;
+  Eigen::VectorXd stiffness_;
+  FrequencyResponse linear_;
+  Eigen::MatrixXd friction_;
 };
 
 }  // namespace
@@ -73,14 +71,14 @@ LumpedSystem with_balanced_friction(const LumpedSystem& system, const std::vecto
   if (free == 0) return system;
   const Eigen::MatrixXd neutral = found.shapes().leftCols(free), momentum = system.mass() * neutral;
 
-  const MeanForces mean(system, neutral);
+  const MeanFriction mean(system);
   LumpedSystemBuilder builder;
   builder.add(system);
   builder.keep_friction_from(neutral);
   const auto places = torque_places(system, rotors, ends);
   if (places.empty()) return builder.build();
   // A single free rotation turns the way in which friction brakes it.
-  const double sense = neutral.col(0).dot(mean.friction(system.load())) < 0 ? 1 : -1;
+  const double sense = neutral.col(0).dot(mean.under(system.load())) < 0 ? 1 : -1;
   const auto power = [&](const TorquePlace& place) {
     return free == 1 ? place.force * sense * neutral(place.dof, 0) : place.power;
   };
@@ -100,7 +98,7 @@ LumpedSystem with_balanced_friction(const LumpedSystem& system, const std::vecto
   Eigen::VectorXd load = system.load(), losses;
   constexpr int steps = 8;  // each leaves a few coefficients of friction of the change before
   for (int i = 0; i < steps; ++i) {
-    const Eigen::VectorXd friction = mean.friction(load);
+    const Eigen::VectorXd friction = mean.under(load);
     losses = torque * balance.solve(-neutral.transpose() * friction);
     losses -= momentum * (neutral.transpose() * losses);
     load = system.load() + losses + friction - momentum * (neutral.transpose() * friction);

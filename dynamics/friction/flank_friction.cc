@@ -113,9 +113,7 @@ std::vector<FrictionShare> friction_shares(const FlankFriction& friction, const 
 }
 
 double pitch_point_radius(const geometry::GearPair& pair) {
-  const double pinion = pair.roll_length_pitch(), wheel = pair.wheel_roll_length(pinion);
-  const double curvature = 1 / pinion + (pair.internal() ? -1 : 1) / wheel;
-  return 1 / (curvature * std::cos(pair.pinion().base_helix_angle()));
+  return 1 / (pair.relative_curvature(pair.roll_length_pitch()) * std::cos(pair.pinion().base_helix_angle()));
 }
 
 double mean_coefficient_of_friction(const geometry::GearPair& pair, const MeanFilm& film) {

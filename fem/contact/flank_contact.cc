@@ -205,11 +205,6 @@ double FlankContact::smallest_gap(double contact_roll) const {
   return match(nearest_roll(contact_roll, domain(contact_roll)), contact_roll).gap;
 }
 
-double FlankContact::relative_curvature(double contact_roll) const {
-  const double wheel = pair_.wheel_roll_length(contact_roll);
-  return 1 / contact_roll + (pair_.internal() ? -1 : 1) / wheel;
-}
-
 int wheel_tooth(const FlankContact& flanks, int index, int cycle) {
   const auto& pair = flanks.pair();
   const int passed = pair.driver() == geometry::Driver::pinion ? index - cycle : index + cycle;

@@ -46,8 +46,6 @@ class FlankContact {
   /// Planet roll length in the domain (that of the contact) where the gap is smallest.
   [[nodiscard]] double nearest_roll(double contact_roll, const Interval& domain,
                                     const FlankDeviations* measured = nullptr) const;
-  /// 1/rho_planet +- 1/rho_wheel at a planet roll length of the theoretical contact, 1/m.
-  [[nodiscard]] double relative_curvature(double contact_roll) const;
 
   [[nodiscard]] const geometry::GearPair& pair() const { return pair_; }
   [[nodiscard]] const geometry::ToothProfile& pinion() const { return pinion_; }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "app/export/rexs.h"
 #include "app/model/gear_system.h"
@@ -16,6 +15,7 @@
 #include "core/log.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
+#include "tests/app/stated_results.h"
 
 namespace annulus {
 
@@ -53,13 +53,7 @@ void run(const std::string& text, const std::filesystem::path& out) {
 std::map<std::string, double> results_of(const std::string& text, const std::filesystem::path& out) {
   run(text, out);
   std::map<std::string, double> results;
-  std::istringstream lines(read_file(out / "figures.csv"));
-  for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> cells;
-    std::istringstream cut(line);
-    for (std::string cell; cells.size() < 4 && std::getline(cut, cell, ',');) cells.push_back(cell);
-    if (cells.size() == 4 && cells.front() == "held" && !cells[3].empty()) results[cells[1]] = std::stod(cells[3]);
-  }
+  for (const auto& [key, figure] : test::stated_results(out)) results[key] = figure.value;
   return results;
 }
 

@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(the_gap_opens_with_the_relative_curvature) {
     // Radii of curvature of involutes are their roll lengths: a convex planet in a concave ring, or against a sun.
     const double wheel_radius = flanks.pair().wheel_roll_length(contact);
     const double curvature = 1 / contact + (flanks.pair().internal() ? -1 : 1) / wheel_radius;
-    record.close("relative curvature", "1/m", flanks.relative_curvature(contact), curvature, 1e-14, "rounding");
+    record.close("relative curvature", "1/m", flanks.pair().relative_curvature(contact), curvature, 1e-14, "rounding");
     const double step = 0.02 * contact;
     double opening = 0;
     for (const double side : {-1.0, 1.0}) {

@@ -23,7 +23,7 @@ Difference from_hertz(const ContactBench& bench, const LoadedPosition& position,
   const double base = bench.flanks().pair().pinion().base_radius(), roll = position.pair_roll[pair];
   const auto arc = [&](double r) { return r * r / (2 * base); };
   const double line_load = position.pair_share[pair] * position.load / bench.face_width();
-  const double b = annulus::fem::hertz_half_width(line_load, bench.flanks().relative_curvature(roll), {});
+  const double b = annulus::fem::hertz_half_width(line_load, bench.flanks().pair().relative_curvature(roll), {});
   double peak = 0, force = 0, first = 0, second = 0;
   for (const auto& patch : position.pressure) {
     if (patch.pair != pair) continue;
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(every_pair_that_stays_away_from_tip_edges_does) {
         const double share = position.pair_share[p], roll = position.pair_roll[p];
         if (share < 0.2) continue;
         const double b = annulus::fem::hertz_half_width(share * nominal_load / bench.face_width(),
-                                                        bench.flanks().relative_curvature(roll), {});
+                                                        bench.flanks().pair().relative_curvature(roll), {});
         const double low = (std::pow(roll, 2) - std::pow(pair.roll_length_low(), 2)) / (2 * base);
         const double high = (std::pow(pair.roll_length_high(), 2) - std::pow(roll, 2)) / (2 * base);
         if (std::min(low, high) < 3 * b) continue;  // nearer, the edge lets the pressure rise

@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(every_slice_presses_as_hertz_says_along_the_oblique_line_of
         const double ahead = bench.flanks().pinion().twist() * base * (key.second - bench.face_width() / 2);
         const double roll = position.pair_roll[key.first] + ahead, at = arc(roll);
         const double b =
-            annulus::fem::hertz_half_width(slice.force, slant * bench.flanks().relative_curvature(roll), {});
+            annulus::fem::hertz_half_width(slice.force, slant * bench.flanks().pair().relative_curvature(roll), {});
         const double room = std::min(at - arc(pair.roll_length_low()), arc(pair.roll_length_high()) - at);
         if (room < 3 * b || slice.force < 0.3 * mean) continue;  // tip edges, and slices with few elements
         const double centre = slice.first / slice.force;

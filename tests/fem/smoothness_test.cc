@@ -50,7 +50,7 @@ class Cycle {
     const auto& pair = bench.flanks().pair();
     const double middle = (pair.roll_length_low() + pair.roll_length_high()) / 2;
     half_width_ =
-        annulus::fem::hertz_half_width(load / bench.face_width(), bench.flanks().relative_curvature(middle), {});
+        annulus::fem::hertz_half_width(load / bench.face_width(), bench.flanks().pair().relative_curvature(middle), {});
     // The contact moves along the flank by roll / r_b of its way along the line of action.
     travel_ = half_width_ * pair.pinion().base_radius() / middle / pair.pinion().base_pitch();
   }
@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(where_a_contact_reaches_its_tip_edge_the_transmission_error
     for (const double roll : {pair.roll_length_low(), pair.roll_length_high()})
       for (const double load : {1e-3, 0.1, 1.0}) {
         const double b = annulus::fem::hertz_half_width(load * nominal_load / bench.face_width(),
-                                                        bench.flanks().relative_curvature(roll), {});
+                                                        bench.flanks().pair().relative_curvature(roll), {});
         const double travel = b * base / roll / pitch, step = travel / 500;
         const double middle = (internal ? 1 : -1) * (roll - pair.roll_length_pitch()) / pitch;
         const auto lte = [&](int i) {

@@ -287,6 +287,7 @@ void put_friction(Draw draw, GearSet& set) {
   if (draw.chance(0.5)) return set.draft.set("friction.coefficient", rounded(draw.log_uniform(0.01, 0.15)));
   set.draft.set("friction.oil_viscosity_mPas", rounded(draw.log_uniform(5, 300)));
   set.draft.set("friction.roughness_um", rounded(draw.log_uniform(0.1, 3)));
+  set.draft.set("friction.lubricant_factor", rounded(draw.uniform(0.6, 1.2)));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "app/model/excitation.h"
 #include "app/model/table_errors.h"
 #include "app/results/cached_value.h"
-#include "app/systems/shared/friction.h"
+#include "app/systems/shared/friction_losses.h"
 #include "app/systems/shared/mesh_names.h"
 #include "app/systems/shared/space_members.h"
 
@@ -82,9 +82,8 @@ LumpedPair lumped_pair(const Scene& scene, const PairGeometry& geometry, const M
 FigureSet pair_losses(const Scene& scene, const PairGeometry& geometry, const PairShares& shares) {
   FigureSet figures;
   if (!has_friction(scene)) return figures;
-  auto losses = mesh_losses(scene, rolling_mesh(scene, geometry), shares, 1);
-  losses.mesh = pinion_wheel;
-  add_losses(figures, {losses}, std::abs(scene.stage.pinion_torque) * scene.stage.pinion_speed);
+  add_losses(figures, {mesh_losses(scene, pinion_wheel, rolling_mesh(scene, geometry), shares, 1)},
+             std::abs(scene.stage.pinion_torque) * scene.stage.pinion_speed);
   return figures;
 }
 

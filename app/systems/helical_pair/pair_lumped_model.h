@@ -35,7 +35,7 @@ struct LumpedPair {
 [[nodiscard]] FigureSet carried_pair_errors(const LumpedPair& lumped, const dynamics::SimulationOptions& options,
                                             dynamics::PairResponse& response);
 
-/// Losses and efficiency (friction.h); nothing without [friction].
+/// Losses and efficiency (friction_losses.h); nothing without [friction].
 [[nodiscard]] FigureSet pair_losses(const Scene& scene, const PairGeometry& geometry, const PairShares& shares);
 /// The results of studies.
 [[nodiscard]] const std::vector<FigureSpec>& pair_study_figures();

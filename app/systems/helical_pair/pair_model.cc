@@ -31,6 +31,11 @@ dynamics::PairGear lumped_gear(const Scene& scene, const PairGearInput& input, c
   return result;
 }
 
+/// Hz
+double mesh_frequency(const Scene& scene) {
+  return scene.pinion.teeth * scene.stage.pinion_speed / (2 * std::numbers::pi);
+}
+
 }  // namespace
 
 double PairGeometry::to_normal() const { return 1 / std::pow(std::cos(base_helix_angle), 2); }
@@ -67,8 +72,7 @@ PairGeometry make_pair_geometry(const Scene& scene) {
 }
 
 RollingMesh rolling_mesh(const Scene& scene, const PairGeometry& geometry) {
-  return {&geometry.gears, scene.pinion.teeth * scene.stage.pinion_speed / (2 * std::numbers::pi),
-          geometry.transverse_force};
+  return {&geometry.gears, mesh_frequency(scene), geometry.transverse_force};
 }
 
 dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry, const dynamics::MeshExcitation& mesh,
@@ -105,8 +109,7 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
 }
 
 dynamics::SimulationOptions pair_simulation(const Scene& scene) {
-  const double mesh_frequency = scene.pinion.teeth * scene.stage.pinion_speed / (2 * std::numbers::pi);
-  return given_simulation(*scene.dynamics, mesh_frequency);
+  return given_simulation(*scene.dynamics, mesh_frequency(scene));
 }
 
 }  // namespace annulus::app

@@ -14,7 +14,7 @@
 #include "app/systems/helical_pair/pair_scene.h"
 #include "app/systems/helical_pair/pair_space.h"
 #include "app/systems/shared/faces.h"
-#include "app/systems/shared/friction.h"
+#include "app/systems/shared/friction_losses.h"
 #include "app/systems/shared/mesh_names.h"
 
 namespace annulus::app {
@@ -72,8 +72,9 @@ class PairSystem final : public GearSystem {
     save_pair_errors(pair_errors(scene()), options.out / "errors");
   }
 
-  [[nodiscard]] bool gives(const std::string& result) const override {
-    return result != efficiency_figure().key || has_friction(scene());
+  [[nodiscard]] std::string table_for(const std::string& result) const override {
+    if (result == efficiency_figure().key && !has_friction(scene())) return "[friction]";
+    return GearSystem::table_for(result);
   }
 
   [[nodiscard]] FigureSet table_figures(std::size_t /*variant*/,

@@ -8,7 +8,7 @@
 #include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/strain_gauges.h"
-#include "app/systems/shared/friction.h"
+#include "app/systems/shared/friction_losses.h"
 #include "app/systems/shared/mesh_names.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
@@ -112,10 +112,8 @@ FigureSet stage_losses(const Scene& scene, const GearGeometry& geometry, std::si
   const auto& set = geometry.rings.at(ring).set;
   const auto& point = geometry.operating_point;
   const auto losses = [&](const MeshResult& mesh, const char* name, const geometry::GearPair& pair) {
-    auto of_mesh =
-        mesh_losses(scene, {&pair, point.mesh_frequency, point.mean_mesh_force}, mesh.shares, scene.stage.planets);
-    of_mesh.mesh = name;
-    return of_mesh;
+    return mesh_losses(scene, name, {&pair, point.mesh_frequency, point.mean_mesh_force}, mesh.shares,
+                       scene.stage.planets);
   };
   add_losses(figures, {losses(sun_mesh, sun_planet, set.sun_mesh()), losses(ring_mesh, ring_planet, set.ring_mesh())},
              point.driving_power());

@@ -28,7 +28,7 @@ namespace annulus::app {
 [[nodiscard]] ModelWays planetary_ways(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                        const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 
-/// Losses and efficiency (friction.h); nothing without [friction].
+/// Losses and efficiency (friction_losses.h); nothing without [friction].
 [[nodiscard]] FigureSet stage_losses(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                      const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 /// The results of studies.

@@ -25,7 +25,7 @@
 #include "app/systems/planetary/statics.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/faces.h"
-#include "app/systems/shared/friction.h"
+#include "app/systems/shared/friction_losses.h"
 #include "app/systems/shared/mesh_names.h"
 #include "app/systems/shared/rotors.h"
 #include "core/errors.h"
@@ -110,8 +110,9 @@ class PlanetarySystem final : public GearSystem {
     }
   }
 
-  [[nodiscard]] bool gives(const std::string& result) const override {
-    return result != efficiency_figure().key || has_friction(scene());
+  [[nodiscard]] std::string table_for(const std::string& result) const override {
+    if (result == efficiency_figure().key && !has_friction(scene())) return "[friction]";
+    return GearSystem::table_for(result);
   }
 
   [[nodiscard]] FigureSet table_figures(std::size_t ring, const std::vector<const MeshResult*>& tables) const override {

@@ -60,7 +60,7 @@ std::vector<dynamics::Rotor::Ripple> waves_of(const std::vector<double>& values)
   for (std::size_t order = 1; 2 * order <= values.size(); ++order) {
     std::complex<double> sum = 0;
     for (std::size_t i = 0; i < values.size(); ++i)
-      sum += std::polar(values[i], -2 * std::numbers::pi * static_cast<double>(order * i) / count);
+      sum += values[i] * std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(order * i) / count);
     sum *= (2 * order == values.size() ? 1 : 2) / count;
     constexpr double unseen = 1e-6;
     if (std::abs(sum) > unseen * largest) waves.push_back({static_cast<double>(order), std::abs(sum), std::arg(sum)});

@@ -87,6 +87,9 @@ class TrainSystem final : public GearSystem {
                        [&](const auto& part) { return part.system->offers(direction); });
   }
 
+  /// Its own shafts are results too.
+  [[nodiscard]] std::string table_for(const std::string& /*result*/) const override { return {}; }
+
   [[nodiscard]] FigureSet table_figures(std::size_t /*variant*/,
                                         const std::vector<const MeshResult*>& /*tables*/) const override {
     return {};
