@@ -102,11 +102,12 @@ Table load_class_table() {
 }
 
 Table transient_table() {
-  Declarations transient("transient",
-                         "Speed and torque that change in time: run-up, run-down, overload, reversal of the torque. "
-                         "Several tables are several courses. Each begins from the steady motion at its first speed "
-                         "and torque; both are straight between their points.",
-                         &Scene::transients);
+  Declarations transient(
+      "transient",
+      "Speed and torque that change in time: start, run-up, run-down, stop, overload, reversal of the "
+      "torque or of the rotation. Several tables are several courses. Each begins from the steady "
+      "motion at its first speed and torque; both are straight between their points.",
+      &Scene::transients);
   transient.study();
   const auto list = [&](const char* name, auto member, const char* meaning) {
     return transient.key(name, member, meaning).longest(most_study_values).not_empty("value");
@@ -114,8 +115,8 @@ Table transient_table() {
   transient.key("name", &TransientInput::name, "Name in results.").required();
   list("time_s", &TransientInput::time, "Times of the points, rising from 0.").from(0, 1e6).required();
   list("speed_factor", &TransientInput::speed,
-       "Speed at each time, over that of [stage]. A standstill itself cannot be reached.")
-      .from(0.01, 10)
+       "Speed at each time, over that of [stage]. 0: a standstill. Below 0 everything turns the other way round.")
+      .from(-10, 10)
       .absent("1 throughout");
   list("torque_factor", &TransientInput::torque,
        "Torque at each time, over that of [stage]. Below 0 it acts the other way round, through back flanks.")

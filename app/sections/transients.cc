@@ -77,7 +77,7 @@ ColourMap waterfall(const TransientResponse& r) {
     const double here = r.window_time[w];
     const double low = w == 0 ? here : (here + r.window_time[w - step]) / 2;
     const double high = w + step < windows ? (here + r.window_time[w + step]) / 2 : here;
-    for (Eigen::Index i = 1; i < r.order.size(); ++i) {
+    for (Eigen::Index i = 1; i < r.order.size() && std::isfinite(r.amplitude(i, w)); ++i) {
       panel.cells.push_back({{low, high}, {r.order[i] - half, r.order[i] + half}, r.amplitude(i, w) / 1e3});
       highest = std::max(highest, r.amplitude(i, w) / 1e3);
     }
@@ -114,8 +114,9 @@ Blocks one_course(const TransientResult& course, std::size_t variant) {
   if (r.window_time.size() > 1)
     blocks += Pictures{{cuts_plot(r), waterfall(r)},
                        {},
-                       fmt::format("Spectra of the mesh with the largest force, over {} mesh cycles each.",
-                                   TransientResponse::window_cycles)};
+                       fmt::format("Spectra of the mesh with the largest force, over {} mesh cycles each; none below "
+                                   "{:g} of the speed of [stage].",
+                                   TransientResponse::window_cycles, dynamics::TransientOptions::slowest)};
   return blocks;
 }
 

@@ -93,12 +93,14 @@ void check_transients(const Scene& scene) {
   const auto rough = system->rough_lumped();
   for (std::size_t i = 0; rough && i < scene.transients.size(); ++i) {
     constexpr double most = dynamics::TransientOptions::most_cycles;
-    const double cycles = scene.transients[i].course().nominal_times().back() * rough->problem.mesh_frequency;
+    const double cycles = dynamics::CourseCycles(scene.transients[i].course(), dynamics::TransientOptions::slowest,
+                                                 rough->problem.mesh_frequency)
+                              .last();
     if (cycles > most)
-      throw InputError(
-          fmt::format("{}: transient.time_s: the course has {:.3g} mesh cycles; {:g} are possible. Use "
-                      "shorter times, as slower changes than these leave the motion steady",
-                      place_text(scene, "transient.time_s", i), cycles, most));
+      throw InputError(fmt::format(
+          "{}: transient.time_s: the course has {:.3g} mesh cycles, a standstill counted as {:g} of the "
+          "speed; {:g} are possible. Use shorter times, as slower changes than these leave the motion steady",
+          place_text(scene, "transient.time_s", i), cycles, dynamics::TransientOptions::slowest, most));
   }
 }
 

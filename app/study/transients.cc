@@ -18,7 +18,7 @@ namespace annulus {
 
 ANNULUS_MEMBERS(dynamics::TransientResponse, meshes, gears, nominal, time, speed, torque, largest, smallest, mean, open,
                 open_error, between_samples, settling_cycles, settled, spectrum_of, order, window_time, window_speed,
-                amplitude, other_loads, statistics);
+                amplitude, other_loads, without_sticking, statistics);
 ANNULUS_MEMBERS(app::VariantCourse, response, figures, failure);
 
 namespace app {
@@ -75,7 +75,9 @@ Csv waterfall_table(const dynamics::TransientResponse& r) {
 void write(const VariantCourse& course, const std::filesystem::path& folder, std::size_t number) {
   const auto& r = course.response;
   auto cycles = cycles_table(r);
-  cycles.header = {{"annulus_version", version()}};
+  cycles.header = {{"annulus_version", version()},
+                   {"cycles", fmt::format("of the mesh; below {0:g} of the speed of [stage] the time of one at {0:g}",
+                                          dynamics::TransientOptions::slowest)}};
   cycles.write(folder / fmt::format("transient_{}.csv", number));
   auto waterfall = waterfall_table(r);
   waterfall.header = {{"annulus_version", version()},
@@ -98,6 +100,11 @@ std::vector<std::string> TransientResult::warnings(std::size_t variant) const {
     list.emplace_back(
         "weights, torque ripples and what bearings bear at the torque of [stage] keep their size while the torque "
         "changes");
+  if (response.without_sticking)
+    list.push_back(fmt::format(
+        "friction falls to nothing below {:g} of the speed of [stage]: teeth at rest do not stick, and what "
+        "friction could hold there moves",
+        dynamics::Pacing::slipping));
   return list;
 }
 
@@ -108,7 +115,7 @@ TransientResult run_transient(const StudySubject& subject, std::size_t number) {
     auto& course = result.variants[variant];
     try {
       const auto model = subject.model({{}, fmt::format("[[transient]] '{}'", input.name), ""}, variant);
-      const auto id = identity_of(std::string("transient 2"), model->id(), input.time, input.speed, input.torque,
+      const auto id = identity_of(std::string("transient 3"), model->id(), input.time, input.speed, input.torque,
                                   static_cast<int>(input.accelerated_by), tolerance);
       const auto [found, reused] = cached_value(subject.options().store.get(), "transients", id,
                                                 [&] { return followed(subject, input, variant, *model); });

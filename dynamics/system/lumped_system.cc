@@ -45,18 +45,18 @@ void subtract_coupled(const LumpedSystem& system, const Compiled& c, double t, E
   Eigen::MatrixXd rate(n, meshes), inverse = Eigen::MatrixXd::Zero(n, meshes), tangent(meshes, meshes);
   Eigen::VectorXd damping(meshes);
   for (int m = 0; m < meshes; ++m) {
-    rate.col(m) = system.mesh_vector_rate(m, t);
+    rate.col(m) = w.pace * system.mesh_vector_rate(m, t);
     for (int i = c.inverse_b.start[m]; i < c.inverse_b.start[m + 1]; ++i)
       inverse(c.inverse_b.index[i], m) = c.inverse_b.factor[i];
     for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i)
       inverse.col(m) += w.factor[i] * c.inverse_moving.col(c.moving[i].slot);
     for (int i = c.meshes[m].first_friction; i < c.meshes[m].last_friction; ++i)
-      inverse.col(m) += (w.force[m] < 0 ? -w.friction[i] : w.friction[i]) * c.friction[i].acceleration;
-    damping[m] = w.pace * w.damping[m];
+      inverse.col(m) += std::copysign(w.sliding, w.force[m]) * w.friction[i] * c.friction[i].acceleration;
+    damping[m] = w.damping[m];
   }
   system.tangent_matrix(w, tangent);
   for (int m = 0; m < meshes; ++m)
-    tangent(m, m) += w.pace * damping_tangent(c.meshes[m], w.contact[m], w.delta[m], w.delta_rate[m]);
+    tangent(m, m) += damping_tangent(c.meshes[m], w.contact[m], w.delta[m], w.delta_rate[m]);
   const Eigen::MatrixXd damped = inverse * damping.asDiagonal();
   result.bottomLeftCorner(n, n) -= inverse * tangent * b.transpose() + damped * rate.transpose();
   result.bottomRightCorner(n, n) -= damped * b.transpose();
@@ -126,7 +126,7 @@ Eigen::VectorXd LumpedSystem::friction_force(const Workspace& w) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(dofs());
   for (std::size_t m = 0; m < meshes_.size(); ++m)
     for (int i = compiled_->meshes[m].first_friction; i < compiled_->meshes[m].last_friction; ++i)
-      force -= w.friction[i] * std::abs(w.force[m]) * compiled_->friction[i].along;
+      force -= w.sliding * w.friction[i] * std::abs(w.force[m]) * compiled_->friction[i].along;
   return force;
 }
 
@@ -214,8 +214,8 @@ void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixX
   }
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
     const CompiledMesh& mesh = c.meshes[m];
-    const double k = w.tangent[m] + w.pace * damping_tangent(mesh, w.contact[m], w.delta[m], w.delta_rate[m]);
-    const double d = w.pace * w.damping[m];
+    const double k = w.tangent[m] + damping_tangent(mesh, w.contact[m], w.delta[m], w.delta_rate[m]);
+    const double d = w.damping[m];
     for (int i = c.inverse_b.start[m]; i < c.inverse_b.start[m + 1]; ++i)
       for (int j = c.b.start[m]; j < c.b.start[m + 1]; ++j) {
         const double product = c.inverse_b.factor[i] * c.b.factor[j];
@@ -272,7 +272,7 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
   }
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     const CompiledMesh& mesh = compiled_->meshes[m];
-    p.dissipated += w.pace * w.damping[m] * w.delta_rate[m] * w.delta_rate[m];
+    p.dissipated += w.damping[m] * w.delta_rate[m] * w.delta_rate[m];
     p.supplied -= w.error_rate[m] * w.force[m];
     if (mesh.face < 0)
       p.supplied +=
@@ -301,18 +301,19 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
   return p;
 }
 
-double LumpedSystem::next_jump(double t) const {
-  double next = std::numeric_limits<double>::infinity();
+double LumpedSystem::next_jump(double t, int direction) const {
+  double next = direction * std::numeric_limits<double>::infinity();
   for (const auto& mesh : compiled_->meshes) {
     if (mesh.kind != CompiledMesh::Kind::wave || mesh.frequency == 0) continue;
     // A billionth of a cycle ahead: the jump just reached is not found again, and jumps of several meshes that differ
     // by rounding only are one.
-    const bool backwards = mesh.frequency < 0;
+    const bool backwards = (mesh.frequency < 0) != (direction < 0);
     const double phase = mesh.frequency * t + mesh.phase_offset + (backwards ? -1e-9 : 1e-9);
     const double start = std::floor(phase);
     const bool high = phase < start + mesh.duty;
     const double jump = backwards ? (high ? start : start + mesh.duty) : (high ? start + mesh.duty : start + 1);
-    next = std::min(next, (jump - mesh.phase_offset) / mesh.frequency);
+    const double time = (jump - mesh.phase_offset) / mesh.frequency;
+    next = direction < 0 ? std::max(next, time) : std::min(next, time);
   }
   return next;
 }

@@ -154,18 +154,19 @@ class LumpedSystem {
   /// Scratch memory and discrete state of one evaluation thread. Make one per thread with `workspace()`.
   struct Workspace {
     double time = 0;
-    double pace = 1;  ///< factor of the dampers of meshes, whose rates are those of another time (Pacing)
+    double pace = 1;     ///< rate of the time of excitations, where that is a nominal one (Pacing)
+    double sliding = 1;  ///< factor of friction
     bool excitation_valid = false;
     /// One entry per mesh at `time`. Where a law replaces the stiffness, `stiffness` is its secant at the nominal load.
-    std::vector<double> stiffness, error, error_rate;
-    std::vector<PhaseLocation> location;           ///< per mesh at `time`, on the grid of its law
-    std::vector<double> delta, delta_rate, force;  ///< per mesh, of the last evaluation
-    std::vector<double> elastic;                   ///< per mesh, force without damping of the last evaluation
-    std::vector<double> damping;                   ///< per mesh, dF/d delta' of the last evaluation over `pace`, N s/m
-    std::vector<double> tangent;                   ///< per mesh, dF/d delta of the last evaluation, N/m
-    std::vector<double> law;                       ///< scratch of one law: deflections, forces
-    std::vector<double> law_tangent;               ///< per law, d elastic / d delta of its meshes, N/m
-    std::vector<double> across_face;               ///< per face, d elastic of the tilt / d delta of the approach, N/m
+    std::vector<double> stiffness, error, error_rate;  // rates over the time of the excitations
+    std::vector<PhaseLocation> location;               ///< per mesh at `time`, on the grid of its law
+    std::vector<double> delta, delta_rate, force;      ///< per mesh, of the last evaluation
+    std::vector<double> elastic;                       ///< per mesh, force without damping of the last evaluation
+    std::vector<double> damping;                       ///< per mesh, dF/d delta' of the last evaluation, N s/m
+    std::vector<double> tangent;                       ///< per mesh, dF/d delta of the last evaluation, N/m
+    std::vector<double> law;                           ///< scratch of one law: deflections, forces
+    std::vector<double> law_tangent;                   ///< per law, d elastic / d delta of its meshes, N/m
+    std::vector<double> across_face;  ///< per face, d elastic of the tilt / d delta of the approach, N/m
     /// Per face at `time`: slope, curvature, gap_slope of its course, then their rates, 1/s and m/s.
     std::vector<std::array<double, 6>> face_shape;
     std::vector<Contact> contact;  ///< per mesh
@@ -244,8 +245,9 @@ class LumpedSystem {
   };
   [[nodiscard]] Power power(double t, const double* y, const Workspace& workspace) const;
 
-  /// Time (s) of the next jump of a rectangular stiffness strictly after t, or infinity.
-  [[nodiscard]] double next_jump(double t) const;
+  /// Time (s) of the next jump of a rectangular stiffness strictly after t, or infinity; where the time runs backwards
+  /// (`direction` -1) strictly before t, or minus infinity.
+  [[nodiscard]] double next_jump(double t, int direction = 1) const;
   /// Holds the rectangular waves at their values at time t: the middle of an interval without jumps.
   void hold_waves(double t, Workspace& workspace) const;
 

@@ -163,7 +163,7 @@ void LumpedSystem::apply_forces(Workspace& w, ContactStates states) const {
   for (const auto& element : laws_) tangent = apply_law_element(element, w, tangent);
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
     w.damping[m] = acting_damping(c.meshes[m], w.contact[m], w.delta[m], w.delta_rate[m]);
-    w.force[m] = w.elastic[m] + w.pace * w.damping[m] * w.delta_rate[m];
+    w.force[m] = w.elastic[m] + w.damping[m] * w.delta_rate[m];
   }
 }
 
@@ -187,12 +187,12 @@ void LumpedSystem::evaluate_meshes(double t, const double* q, const double* v, W
   double* pairs = w.pairs.data();
   for (int i = 0; i < dofs(); ++i) store(TwoDoubles{q[i], v[i]}, pairs + 2 * i);
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
-    TwoDoubles approach{-w.error[m], -w.error_rate[m]};
+    TwoDoubles approach{-w.error[m], -w.pace * w.error_rate[m]};
     for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i)
       approach += c.b.factor[i] * two_doubles_at(pairs + 2 * c.b.index[i]);
     for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i) {
       const int j = c.moving[i].dof;
-      approach += w.factor[i] * two_doubles_at(pairs + 2 * j) + TwoDoubles{0.0, w.factor_rate[i] * q[j]};
+      approach += w.factor[i] * two_doubles_at(pairs + 2 * j) + TwoDoubles{0.0, w.pace * w.factor_rate[i] * q[j]};
     }
     w.approach[m] = approach[0];
     w.delta_rate[m] = approach[1];
@@ -204,7 +204,7 @@ void LumpedSystem::evaluate_forces(double t, const double* approach, const doubl
   evaluate_excitation(t, w);
   for (std::size_t m = 0; m < compiled_->meshes.size(); ++m) {
     w.approach[m] = approach[m] - w.error[m];
-    w.delta_rate[m] = approach_rate[m] - w.error_rate[m];
+    w.delta_rate[m] = approach_rate[m] - w.pace * w.error_rate[m];
   }
   apply_forces(w, ContactStates::following);
 }
@@ -235,7 +235,8 @@ void LumpedSystem::rhs(double t, const double* y, double* dy, Workspace& w) cons
   }
   for (std::size_t m = 0; m < meshes; ++m)
     for (int k = c.meshes[m].first_friction; k < c.meshes[m].last_friction; ++k)
-      Eigen::Map<Eigen::VectorXd>(dy + n, n) -= w.friction[k] * std::abs(w.force[m]) * c.friction[k].acceleration;
+      Eigen::Map<Eigen::VectorXd>(dy + n, n) -=
+          w.sliding * w.friction[k] * std::abs(w.force[m]) * c.friction[k].acceleration;
 }
 
 }  // namespace annulus::dynamics

@@ -73,13 +73,17 @@ StateTolerance state_tolerance(const LumpedSystem& system, const IntegratorOptio
   return tolerance;
 }
 
-/// The contact states after the roots just found.
-void apply_roots(const StepperProblem& problem, const std::vector<int>& roots) {
+/// Sets the contact states after the roots just found. Has any changed?
+bool apply_roots(const StepperProblem& problem, const std::vector<int>& roots) {
+  bool changed = false;
   for (std::size_t i = 0; i < problem.rooted.size(); ++i) {
     auto& contact = problem.workspace.contact[problem.rooted[i]];
-    if (roots[2 * i] != 0) contact = roots[2 * i] > 0 ? Contact::drive : Contact::open;
-    if (roots[2 * i + 1] != 0) contact = roots[2 * i + 1] > 0 ? Contact::open : Contact::back;
+    const int* of_mesh = &roots[StepperProblem::roots_per_mesh * i];
+    if (of_mesh[0] != 0) contact = of_mesh[0] > 0 ? Contact::drive : Contact::open;
+    if (of_mesh[1] != 0) contact = of_mesh[1] > 0 ? Contact::open : Contact::back;
+    changed = changed || of_mesh[0] != 0 || of_mesh[1] != 0;
   }
+  return changed;
 }
 
 /// Does a deflection contradict a held contact state by more than the accuracy of a located root? (Two roots closer
@@ -144,8 +148,8 @@ class Integration {
   void begin(const IntegratorOptions& options) {
     const int n = system_.dofs();
     stop_ = segment_end();
-    system_.hold_waves((time_ + stop_) / 2, workspace_);
-    system_.detect_contact(time_, state_.q.data(), workspace_);
+    system_.hold_waves(problem_.system_time((time_ + stop_) / 2), workspace_);
+    system_.detect_contact(problem_.system_time(time_), state_.q.data(), workspace_);
     problem_.tolerance = state_tolerance(system_, options, workspace_, state_.q, problem_.size());
     stepper_ = make_stepper(problem_, options);
     auto y = stepper_->state();
@@ -172,13 +176,12 @@ class Integration {
       throw SolverError(
           fmt::format("the time integration reached {} for {} at t = {:.9g} s", y[first], name_of(first), time_));
     }
-    if (reached.root) {
-      apply_roots(problem_, stepper_->roots());
+    if (reached.root && apply_roots(problem_, stepper_->roots())) {
       restart_at_contact();
     } else if (!problem_.rooted.empty()) {
       evaluate_meshes();
       if (!contact_contradicted(problem_)) return;
-      system_.detect_contact(time_, y.data(), workspace_);
+      system_.detect_contact(problem_.system_time(time_), y.data(), workspace_);
       restart_at_contact();
     }
   }
@@ -191,7 +194,8 @@ class Integration {
   void pass_jump() {
     stop_ = segment_end();
     auto y = stepper_->state();
-    const double change = jump_energy(system_, time_, (time_ + stop_) / 2, y.data(), workspace_, observer_.at_jump);
+    const double middle = problem_.system_time((time_ + stop_) / 2), now = problem_.system_time(time_);
+    const double change = jump_energy(system_, now, middle, y.data(), workspace_, observer_.at_jump);
     if (problem_.track_energy) y[2 * system_.dofs()] += change;
     ++problem_.statistics.stiffness_restarts;
     stepper_->restart(time_, stop_);
@@ -227,15 +231,16 @@ class Integration {
 
   void evaluate_meshes() {
     const auto y = stepper_->state();
-    problem_.set_pace(time_);
-    system_.evaluate_meshes(time_, y.data(), y.data() + system_.dofs(), workspace_);
+    system_.evaluate_meshes(problem_.system_time(time_), y.data(), y.data() + system_.dofs(), workspace_);
   }
 
   [[nodiscard]] double segment_end() const {
-    const double jump = system_.next_jump(time_);
-    return end_ - jump < instant_ ? end_ : jump;
+    const double next = problem_.pacing ? problem_.pacing->next_stop(time_) : system_.next_jump(time_);
+    return end_ - next < instant_ ? end_ : next;
   }
-  [[nodiscard]] double sample_time(int i) const { return start_ + i * (end_ - start_) / observer_.samples; }
+  [[nodiscard]] double sample_time(int i) const {
+    return observer_.time_of ? observer_.time_of(i) : start_ + i * (end_ - start_) / observer_.samples;
+  }
   [[nodiscard]] std::string name_of(Eigen::Index entry) const {
     const int n = system_.dofs();
     if (entry < n) return system_.names()[static_cast<std::size_t>(entry)];
@@ -250,7 +255,7 @@ class Integration {
   std::unique_ptr<Stepper> stepper_;
   double start_ = 0, end_ = 0, time_ = 0;
   double instant_ = 0;  ///< s, times closer than this are one: SUNDIALS refuses to integrate over a rounding error
-  double stop_ = 0;     ///< s, next jump of a stiffness, or the end
+  double stop_ = 0;     ///< s, next jump of a stiffness or point of the course, or the end
   double stretch_ = 0;  ///< s, longest distance of one call of the stepper
   int next_sample_ = 0;
 };
@@ -263,10 +268,7 @@ IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, d
   check_options(given);
   IntegratorOptions options = given;
   if (options.method == Integrator::automatic)
-    options.method =
-        pacing ? Integrator::arkode_explicit : choose_integrator(system, options.relative_tolerance).method;
-  if (pacing && options.method != Integrator::arkode_explicit && options.method != Integrator::runge_kutta_4)
-    throw InputError("an implicit method cannot follow a course of speed and torque; use an explicit one");
+    options.method = choose_integrator(system, options.relative_tolerance).method;
   if (pacing && observer.energy == EnergyTracking::on)
     throw InputError("energies are not tracked while a system follows a course of speed and torque");
   require(state.q.size() == system.dofs() && state.v.size() == system.dofs(),

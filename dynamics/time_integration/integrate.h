@@ -37,7 +37,7 @@ struct IntegratorStatistics {
   long rhs_evaluations = 0;
   long jacobian_evaluations = 0;
   long contact_events = 0;      ///< losses of contact and returns to it
-  long stiffness_restarts = 0;  ///< jumps of a rectangular stiffness
+  long stiffness_restarts = 0;  ///< jumps of a rectangular stiffness, points of a course
 };
 
 /// State of a system and its energies since the start of an integration.
@@ -52,8 +52,9 @@ enum class EnergyTracking { off, on };
 /// Everything an integration reports on its way. Functions may be empty. The mesh forces in the workspace are evaluated
 /// before each call.
 struct IntegrationObserver {
-  int samples = 0;  ///< number of equidistant times at which `sample` is called
-  /// Called at state.time + index (end - state.time)/samples, index = 0 ... samples - 1.
+  int samples = 0;  ///< number of times at which `sample` is called, index = 0 ... samples - 1
+  /// s, rising from the start on, below the end; absent: state.time + index (end - state.time)/samples.
+  std::function<double(int index)> time_of{};
   std::function<void(int index, const SystemState&)> sample{};
   /// Called with the time (s) before and after every jump of a stiffness. In a system with jumps it is called at the
   /// end of the integration as well, where a jump may stand.
@@ -66,8 +67,7 @@ struct IntegrationObserver {
 /// Contact events, |delta| = half backlash, are located as roots. The integrator restarts there and at the known jumps
 /// of rectangular stiffnesses.
 ///
-/// `pacing`: a course that the system follows. Times are then nominal ones, and velocities displacements over these;
-/// explicit methods alone do so, and energies are not tracked. Null: as the system was built.
+/// `pacing`: a course that the system follows; energies are then not tracked. Null: as the system was built.
 ///
 /// Throws InputError for unusable options or an end that is not after the start. Throws SolverError, with time and
 /// cause, when the integrator fails or a value is not finite.

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -41,11 +42,15 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> over_mass(const Eigen::LLT<Eigen::M
   return solved.sparseView(solved.cwiseAbs().maxCoeff(), rounding);
 }
 
+/// Of the rotation, by which friction acts.
+double sense_of(double speed) { return std::clamp(speed / Pacing::slipping, -1.0, 1.0); }
+
 }  // namespace
 
 Pacing::Pacing(const LumpedSystem& system, Course course, const std::string& dof, double turning, AcceleratedBy by)
-    : dofs_(system.dofs()), course_(std::move(course)), change_(system.dofs()) {
-  course_.check();
+    : system_(&system), dofs_(system.dofs()), change_(system.dofs()) {
+  course.check();
+  course_ = course.with_points_at(0);
   nominal_ = course_.nominal_times();
   const Eigen::LLT<Eigen::MatrixXd> mass(system.mass());
   const auto& torque = system.load(LoadCause::torque);
@@ -63,45 +68,74 @@ Pacing::Pacing(const LumpedSystem& system, Course course, const std::string& dof
                     "the other side turn them (inertia_turned_by)",
                     by == AcceleratedBy::drive ? "drives" : "loads"));
   if (changes) of_acceleration_ = mass.solve(rotation_.dot(system.mass() * rotation_) / power * bearing) - rotation_;
-  of_torque_ = mass.solve(torque + system.load(LoadCause::losses));
+  of_torque_ = mass.solve(torque);
+  of_losses_ = mass.solve(system.load(LoadCause::losses));
   of_rotation_ = mass.solve(system.load(LoadCause::rotation));
   const auto& k = system.rotating_stiffness();
-  damping_ = over_mass(mass, system.damping());
   gyroscopic_ = over_mass(mass, system.gyroscopic());
   symmetric_ = over_mass(mass, (k + k.transpose()) / 2);
   skew_ = over_mass(mass, (k - k.transpose()) / 2);
 }
 
-Pacing::Now Pacing::at(double nominal) const {
-  if (const auto& first = course_.points.front(); nominal < 0)
-    return {nominal / first.speed, first.speed, first.torque, 0};
-  const auto next = std::upper_bound(nominal_.begin() + 1, nominal_.end() - 1, nominal) - nominal_.begin();
-  const auto &a = course_.points[static_cast<std::size_t>(next) - 1],
-             &b = course_.points[static_cast<std::size_t>(next)];
-  const double since = nominal - nominal_[static_cast<std::size_t>(next) - 1];
-  if (nominal >= nominal_.back()) return {b.time + (nominal - nominal_.back()) / b.speed, b.speed, b.torque, 0};
-  const double acceleration = (b.speed - a.speed) / (b.time - a.time);
-  // The nominal time grows with the square of the time.
-  const double speed = std::sqrt(a.speed * a.speed + 2 * acceleration * since);
-  const double time = 2 * since / (a.speed + speed);
-  return {a.time + time, speed, a.torque + (b.torque - a.torque) * time / (b.time - a.time), acceleration};
+std::size_t Pacing::piece_at(double time) const {
+  const auto next = std::upper_bound(course_.points.begin() + 1, course_.points.end() - 1, time,
+                                     [](double t, const auto& point) { return t < point.time; });
+  return static_cast<std::size_t>(next - course_.points.begin()) - 1;
 }
 
-void Pacing::correct(double nominal, const double* y, double* dy) const {
-  const auto now = at(nominal);
-  const Eigen::Map<const Eigen::VectorXd> q(y, dofs_), u(y + dofs_, dofs_);
+Pacing::Now Pacing::at(double time) const {
+  const auto &first = course_.points.front(), &last = course_.points.back();
+  if (time < 0) return {first.speed * time, first.speed, first.torque, 0};
+  if (time >= last.time) return {nominal_.back() + last.speed * (time - last.time), last.speed, last.torque, 0};
+  const auto piece = piece_at(time);
+  const auto &a = course_.points[piece], &b = course_.points[piece + 1];
+  const double since = time - a.time, share = since / (b.time - a.time);
+  const double speed = a.speed + share * (b.speed - a.speed);
+  return {nominal_[piece] + (a.speed + speed) / 2 * since, speed, a.torque + share * (b.torque - a.torque),
+          (b.speed - a.speed) / (b.time - a.time)};
+}
+
+double Pacing::next_stop(double time) const {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const auto &first = course_.points.front(), &last = course_.points.back();
+  const bool before = time < 0, behind = time >= last.time;
+  const auto piece = piece_at(time);
+  const double end = before ? 0 : behind ? never : course_.points[piece + 1].time;
+  const double at_end = before ? first.speed : behind ? last.speed : course_.points[piece + 1].speed;
+  const auto now = at(time);
+  const double sense = now.speed + at_end;  // neither changes its sign
+  if (sense == 0) return end;
+  const double ahead = system_->next_jump(now.nominal, sense > 0 ? 1 : -1) - now.nominal;
+  const double square = now.speed * now.speed + 2 * now.acceleration * ahead;
+  if (!std::isfinite(ahead) || square < 0) return end;  // none, or the course turns before it
+  const double jump = time + 2 * ahead / (now.speed + std::copysign(std::sqrt(square), sense));
+  constexpr double instant = 1e-13;  // of the time: points and jumps that are as close are one
+  return jump < end * (1 - instant) ? jump : end;
+}
+
+void Pacing::set_rates(const Now& now, LumpedSystem::Workspace& workspace) {
+  workspace.pace = now.speed;
+  workspace.sliding = sense_of(now.speed);
+}
+
+void Pacing::correct(const Now& now, const double* y, double* dy) const {
+  const Eigen::Map<const Eigen::VectorXd> q(y, dofs_), v(y + dofs_, dofs_);
   Eigen::Map<Eigen::VectorXd> rate(dy + dofs_, dofs_);
   const double s = now.speed, square = s * s;
-  rate += (now.torque - 1) * of_torque_ + (square - 1) * of_rotation_ + now.acceleration * (of_acceleration_ - u);
-  if (s != 1) {
-    change_.noalias() = damping_ * u;
-    change_.noalias() += skew_ * q;
-    rate += (1 - s) * change_;
-    change_.noalias() = gyroscopic_ * u;
-    change_.noalias() += symmetric_ * q;
-    rate += (1 - square) * change_;
-  }
-  rate /= square;
+  rate += (now.torque - 1) * of_torque_ + (std::abs(now.torque) * sense_of(s) - 1) * of_losses_ +
+          (square - 1) * of_rotation_ + now.acceleration * of_acceleration_;
+  if (s == 1) return;
+  change_.noalias() = gyroscopic_ * v;
+  change_.noalias() += skew_ * q;
+  rate += (1 - s) * change_;
+  change_.noalias() = symmetric_ * q;
+  rate += (1 - square) * change_;
+}
+
+void Pacing::correct(const Now& now, Eigen::Ref<Eigen::MatrixXd> jacobian) const {
+  const double s = now.speed;
+  jacobian.bottomLeftCorner(dofs_, dofs_) += (1 - s) * skew_ + (1 - s * s) * symmetric_;
+  jacobian.bottomRightCorner(dofs_, dofs_) += (1 - s) * gyroscopic_;
 }
 
 }  // namespace annulus::dynamics

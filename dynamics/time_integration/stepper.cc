@@ -29,9 +29,8 @@ static int annulus_rhs(realtype t, N_Vector y, N_Vector dy, void* data) {
   const double* state = N_VGetArrayPointer(y);
   double* rate = N_VGetArrayPointer(dy);
   ++p.statistics.rhs_evaluations;
-  p.set_pace(t);
-  p.system.rhs(t, state, rate, p.workspace);
-  if (p.pacing) p.pacing->correct(t, state, rate);
+  p.system.rhs(p.system_time(t), state, rate, p.workspace);
+  if (p.pacing) p.pacing->correct(p.pacing->at(t), state, rate);
   const int n = 2 * p.system.dofs();
   if (p.track_energy) {
     const auto power = p.system.power(t, state, p.workspace);
@@ -52,18 +51,22 @@ static int annulus_jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix matrix, 
   // The energies are integrals beside the system: nothing depends on them. Their own dependence on the state is omitted
   // from the Newton matrix; they are then corrected, not predicted.
   jacobian.setZero();
-  p.system.jacobian(t, N_VGetArrayPointer(y), jacobian.topLeftCorner(n, n), p.workspace);
+  p.system.jacobian(p.system_time(t), N_VGetArrayPointer(y), jacobian.topLeftCorner(n, n), p.workspace);
+  if (p.pacing) p.pacing->correct(p.pacing->at(t), jacobian.topLeftCorner(n, n));
   return 0;
 }
 
 static int annulus_roots(realtype t, N_Vector y, realtype* values, void* data) {
   auto& p = *static_cast<StepperProblem*>(data);
   const double* state = N_VGetArrayPointer(y);
-  p.system.evaluate_meshes(t, state, state + p.system.dofs(), p.workspace);
+  p.system.evaluate_meshes(p.system_time(t), state, state + p.system.dofs(), p.workspace);
   for (std::size_t i = 0; i < p.rooted.size(); ++i) {
-    const double half = *p.system.meshes()[p.rooted[i]].half_backlash;
-    values[2 * i] = p.workspace.delta[p.rooted[i]] - half;
-    values[2 * i + 1] = p.workspace.delta[p.rooted[i]] + half;
+    const int m = p.rooted[i];
+    const double half = *p.system.meshes()[m].half_backlash;
+    realtype* of_mesh = values + StepperProblem::roots_per_mesh * i;
+    of_mesh[0] = p.workspace.delta[m] - half;
+    of_mesh[1] = p.workspace.delta[m] + half;
+    of_mesh[2] = p.workspace.contact[m] == LumpedSystem::Contact::open ? p.workspace.delta_rate[m] : 1;
   }
   return 0;
 }
@@ -154,7 +157,7 @@ class SundialsStepper : public Stepper {
 
  protected:
   SundialsStepper(StepperProblem& problem, const Package& package)
-      : package_(package), problem_(problem), roots_(2 * problem.rooted.size(), 0) {
+      : package_(package), problem_(problem), roots_(StepperProblem::roots_per_mesh * problem.rooted.size(), 0) {
     y_ = N_VNew_Serial(problem.size(), context_);
     // One pass per Runge-Kutta stage instead of one per term; every vector cloned from this one inherits it.
     N_VEnableFusedOps_Serial(y_, SUNTRUE);

@@ -19,14 +19,20 @@ struct StateTolerance {
 struct StepperProblem {
   const LumpedSystem& system;
   LumpedSystem::Workspace& workspace;
-  std::vector<int> rooted;  ///< meshes with backlash; two root functions each: delta - half, delta + half
+  /// Meshes with backlash; three root functions each: delta - half, delta + half, and while nothing touches delta'. In
+  /// free flight steps are long: with its turning points, a contact that begins and ends within a step is found.
+  std::vector<int> rooted;
+  static constexpr std::size_t roots_per_mesh = 3;
   bool track_energy = false;
   StateTolerance tolerance{};
   IntegratorStatistics statistics{};
   const Pacing* pacing = nullptr;  ///< of integrate()
-  /// Before anything of the system is evaluated at time t.
-  void set_pace(double t) {
-    if (pacing) workspace.pace = pacing->at(t).speed;
+  /// The time at which the system is evaluated at time t, with its rates set in the workspace.
+  double system_time(double t) {
+    if (!pacing) return t;
+    const auto now = pacing->at(t);
+    Pacing::set_rates(now, workspace);
+    return now.nominal;
   }
   [[nodiscard]] int size() const { return 2 * system.dofs() + (track_energy ? 2 : 0); }
 };

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/not_known.h"
 #include "dynamics/figures/spectrum.h"
 #include "dynamics/statics/static_solver.h"
 
@@ -34,6 +35,8 @@ class CourseRun {
         of_period_(of.problem.period_in_cycles),
         options_(options),
         pacing_(of.system, options.course, of.turning.dof, of.turning.velocity, options.accelerated_by),
+        cycles_(options.course, TransientOptions::slowest, frequency_),
+        turning_points_(options.course.with_points_at(0)),
         workspace_(of.system.workspace()) {
     auto& integrator = options_.integrator;
     if (!integrator.absolute_tolerance)
@@ -48,17 +51,21 @@ class CourseRun {
 
   TransientResponse run(double force_scale) && {
     TransientResponse result;
-    const double in_course = pacing_.nominal_end() * frequency_;
+    const double in_course = cycles_.last();
     if (in_course > TransientOptions::most_cycles)
       throw InputError(fmt::format("the course has {:.3g} mesh cycles; {:g} are possible", in_course,
                                    TransientOptions::most_cycles));
     for (const int m : meshes_) result.meshes.push_back(system_.meshes()[static_cast<std::size_t>(m)].name);
     result.gears = gears_;
     result.other_loads = system_.load(LoadCause::none).any() || !system_.harmonic_loads().empty();
+    const auto& points = turning_points_.points;
+    result.without_sticking = system_.has_friction() && std::any_of(points.begin(), points.end(), [](const auto& p) {
+                                return std::abs(p.speed) < Pacing::slipping;
+                              });
     settle(result, force_scale);
     result.nominal = nominal();
     const int cycles = std::max(1, static_cast<int>(std::ceil(in_course - 1e-9)));
-    const auto followed = advance(cycles);
+    const auto followed = advance(0, cycles);
     result.statistics = statistics_;
     tabulate(result, followed, cycles);
     add_spectra(result, followed.force, cycles);
@@ -70,18 +77,20 @@ class CourseRun {
   void settle(TransientResponse& result, double force_scale) {
     // Whole periods, where windows can show that the motion repeats.
     constexpr int shortest = 20, longest = 100;
-    const int period = of_period_ > longest ? 1 : of_period_, window = (shortest + period - 1) / period * period;
+    const double speed = std::abs(options_.course.points.front().speed);
+    const bool rests = speed == 0, periods = speed >= TransientOptions::slowest && of_period_ <= longest;
+    const int period = periods ? of_period_ : 1, window = (shortest + period - 1) / period * period;
     const int windows = std::max(2, options_.most_settling_cycles / window);
-    state_.time = -windows * window / frequency_;
-    state_.q = static_path(system_, Eigen::VectorXd::Constant(1, state_.time)).displacement.col(0);
+    state_.time = cycles_.time(-windows * window);
+    state_.q = static_path(system_, Eigen::VectorXd::Constant(1, pacing_.at(state_.time).nominal)).displacement.col(0);
     state_.v = Eigen::VectorXd::Zero(system_.dofs());
     Eigen::VectorXd before;
     for (int i = 0; i < windows; ++i) {
-      const auto followed = advance(window);
+      const auto followed = advance((i - windows) * window, window);
       const Eigen::VectorXd peaks = followed.force.rowwise().maxCoeff().cast<double>();
       result.settling_cycles += window;
       const double wanted = options_.steady_tolerance * force_scale;
-      if (period == of_period_) result.settled = before.size() > 0 && (peaks - before).cwiseAbs().maxCoeff() <= wanted;
+      if (periods || rests) result.settled = before.size() > 0 && (peaks - before).cwiseAbs().maxCoeff() <= wanted;
       if (result.settled.value_or(false)) break;
       before = peaks;
     }
@@ -122,15 +131,18 @@ class CourseRun {
     return mean_of_kinds(static_path(system_, times).force(meshes_, Eigen::all).rowwise().mean());
   }
 
-  Followed advance(int cycles) {
-    const int samples = cycles * options_.samples_per_cycle;
+  /// From a cycle on, at which the state stands.
+  Followed advance(int first, int cycles) {
+    const int per_cycle = options_.samples_per_cycle, samples = cycles * per_cycle;
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(gears_);
     Followed followed{Eigen::MatrixXf(std::ssize(meshes_), samples), none, none};
     IntegrationObserver observer;
     observer.samples = samples;
+    observer.time_of = [&](int index) { return cycles_.time(first + static_cast<double>(index) / per_cycle); };
     std::vector<bool> was_open(workspace_.elastic.size());
     observer.sample = [&](int index, const SystemState& state) {
-      const double lasts = 1 / (pacing_.at(state.time).speed * options_.samples_per_cycle * frequency_);
+      const double pace = std::max(std::abs(pacing_.at(state.time).speed), TransientOptions::slowest);
+      const double lasts = 1 / (pace * per_cycle * frequency_);
       followed.duration += lasts;
       for (Eigen::Index row = 0; row < std::ssize(meshes_); ++row) {
         const auto m = static_cast<std::size_t>(meshes_[static_cast<std::size_t>(row)]);
@@ -142,8 +154,8 @@ class CourseRun {
         was_open[m] = open;
       }
     };
-    const auto statistics = integrate(system_, state_, state_.time + cycles / frequency_, options_.integrator,
-                                      workspace_, observer, &pacing_);
+    const auto statistics =
+        integrate(system_, state_, cycles_.time(first + cycles), options_.integrator, workspace_, observer, &pacing_);
     statistics_.steps += statistics.steps;
     statistics_.rhs_evaluations += statistics.rhs_evaluations;
     statistics_.contact_events += statistics.contact_events;
@@ -171,8 +183,8 @@ class CourseRun {
       result.between_samples[m] = most > 0 ? 1 - less / most : 0;
     }
     for (int c = 0; c < cycles; ++c) {
-      const auto now = pacing_.at((c + 0.5) / frequency_);
-      result.time[c] = now.time;
+      result.time[c] = cycles_.time(c + 0.5);
+      const auto now = pacing_.at(result.time[c]);
       result.speed[c] = now.speed;
       result.torque[c] = now.torque;
       const Eigen::MatrixXd force = followed.force.middleCols(c * samples, samples).cast<double>();
@@ -180,6 +192,16 @@ class CourseRun {
       result.smallest.col(c) = force.rowwise().minCoeff();
       result.mean.col(c) = force.rowwise().mean();
     }
+  }
+
+  /// Whether samples between these cycles are equidistant in the mesh cycle.
+  [[nodiscard]] bool has_orders(double first, double last) const {
+    const double begin = cycles_.time(first), end = cycles_.time(last);
+    const auto slow = [](double speed) { return std::abs(speed) < TransientOptions::slowest; };
+    const auto& points = turning_points_.points;
+    return !slow(pacing_.at(begin).speed) && !slow(pacing_.at(end).speed) &&
+           std::none_of(points.begin(), points.end(),
+                        [&](const auto& p) { return p.time > begin && p.time < end && slow(p.speed); });
   }
 
   /// With a Hann window, which keeps its neighbours apart while the speed changes.
@@ -196,14 +218,16 @@ class CourseRun {
     result.window_speed.resize(windows);
     for (int w = 0; w < windows; ++w) {
       const int first = w * window / 2;
-      const auto now = pacing_.at((first + window / 2.0) / frequency_);
-      result.window_time[w] = now.time;
-      result.window_speed[w] = now.speed;
+      result.window_time[w] = cycles_.time(first + window / 2.0);
+      result.window_speed[w] = pacing_.at(result.window_time[w]).speed;
       Eigen::VectorXd part = force.row(result.spectrum_of).segment(first * samples, length).cast<double>().transpose();
       part = (part.array() - part.mean()) * hann;
       const auto lines = spectrum(part, window);
       result.order = lines.order.head(orders);
-      result.amplitude.col(w) = lines.amplitude.head(orders);
+      if (has_orders(first, first + window))
+        result.amplitude.col(w) = lines.amplitude.head(orders);
+      else
+        result.amplitude.col(w).setConstant(not_known);
     }
   }
 
@@ -212,6 +236,8 @@ class CourseRun {
   int of_period_;
   TransientOptions options_;
   Pacing pacing_;
+  CourseCycles cycles_;
+  Course turning_points_;  // with one at every change of the sense of rotation
   LumpedSystem::Workspace workspace_;
   std::vector<int> meshes_;
   int gears_ = 0;

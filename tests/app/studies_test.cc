@@ -113,10 +113,12 @@ BOOST_AUTO_TEST_CASE(courses_of_speed_and_torque) {
   const std::string courses =
       "[[transient]]\nname = \"as it is\"\ntime_s = [0, 0.02]\nspeed_factor = [1, 1]\n"
       "[[transient]]\nname = \"overload\"\ntime_s = [0, 0.02, 0.03, 0.06]\ntorque_factor = [1, 1, 2, 2]\n"
-      "[[transient]]\nname = \"run-up\"\ntime_s = [0, 0.15]\nspeed_factor = [0.3, 1.2]\ninertia_turned_by = \"load\"\n";
+      "[[transient]]\nname = \"run-up\"\ntime_s = [0, 0.15]\nspeed_factor = [0.3, 1.2]\ninertia_turned_by = \"load\"\n"
+      "[[transient]]\nname = \"start, stop, back\"\ntime_s = [0, 0.01, 0.06, 0.11, 0.3, 0.35]\n"
+      "speed_factor = [0, 0, 1, 0, 0, -0.6]\n";
   const auto result = run_text(short_scene() + courses, folder.path() / "out");
   const auto& found = result.studies.transients;
-  BOOST_TEST_REQUIRE(found.size() == 3U);
+  BOOST_TEST_REQUIRE(found.size() == 4U);
   for (const auto& course : found) BOOST_TEST(course.variants[0].failure.empty(), course.variants[0].failure);
   const auto series = Csv::read(folder.path() / "out/held/dynamics/time_series.csv");
   const auto& still = found[0].variants[0].response;
@@ -139,6 +141,15 @@ BOOST_AUTO_TEST_CASE(courses_of_speed_and_torque) {
   const auto& run_up = found[2].variants[0].response;
   BOOST_TEST(run_up.speed[0] < 0.32);
   BOOST_TEST(run_up.speed[run_up.time.size() - 1] > 1.18);
+  // At rest under the torque of the stage the planets bear its load; spectra exist where it turns.
+  const auto& stop = found[3].variants[0].response;
+  BOOST_TEST(stop.settled.value_or(false));
+  const auto rest = (stop.time.array() < 0.25).count() - 1;
+  BOOST_TEST(stop.speed[rest] == 0.0);
+  BOOST_TEST(stop.mean.col(rest).head(stop.gears / 2).mean() == before, boost::test_tools::tolerance(2e-2));
+  BOOST_TEST(std::isnan(stop.amplitude(1, 0)));
+  BOOST_TEST((stop.amplitude.row(1).array() > 0).any());
+  BOOST_TEST(stop.speed[stop.speed.size() - 1] < -0.5);
   const auto csv = Csv::read(folder.path() / "out/held/dynamics/transient_2.csv");
   BOOST_TEST(column(csv, "torque_factor").back() == 2.0);
   BOOST_TEST(Csv::read(folder.path() / "out/held/dynamics/transient_3_waterfall.csv").rows.size() > 2U);
@@ -162,7 +173,7 @@ BOOST_AUTO_TEST_CASE(courses_that_do_not_fit_are_refused) {
   refused("time_s = [1, 2]\nspeed_factor = [1, 1]\n", "has to rise from 0");
   refused("time_s = [0, 2, 2]\nspeed_factor = [1, 1, 1]\n", "has to rise from 0");
   refused("time_s = [0, 2]\nspeed_factor = [1]\n", "1 values for 2 times");
-  refused("time_s = [0, 2]\nspeed_factor = [0, 1]\n", "speed_factor");
+  refused("time_s = [0, 2]\nspeed_factor = [20, 1]\n", "speed_factor");
   refused("time_s = [0, 2]\n", "nothing changes");
 }
 

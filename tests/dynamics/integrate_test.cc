@@ -123,6 +123,38 @@ BOOST_AUTO_TEST_CASE(backlash_oscillator_in_closed_form) {
 }
 
 // Meissner's equation: a stiffness switching between two values, each piece an exact rotation in the phase plane.
+// Steps of free flight are far longer than a visit to the back flanks, which begins and ends within one.
+BOOST_AUTO_TEST_CASE(brief_contact_after_a_flight_in_closed_form) {
+  annulus::test::Verification record("Brief contact with the back flanks after a free flight",
+                                     "closed form: parabolas and an arc of a sine");
+  constexpr double mass = 2, stiffness = 4e8, load = 60, half = 1e-3;
+  LumpedSystemBuilder builder;
+  const auto x = builder.add_dof("x");
+  builder.add_mass(x, mass);
+  builder.add_load(x, load);
+  MeshElement mesh;
+  mesh.b = x;
+  mesh.excitation = ConstantStiffness{stiffness};
+  mesh.half_backlash = half;
+  builder.add_mesh(mesh);
+  const auto system = builder.build();
+  const double a = load / mass, w = std::sqrt(stiffness / mass);
+  for (const double at_back : {0.01, 0.1}) {  // m/s, on arrival
+    const double thrown = std::sqrt(at_back * at_back + 4 * a * half);
+    const double visit = 2 / w * std::atan(at_back * w / a), flights = 2 * (thrown - at_back) / a;
+    BOOST_TEST(visit < 0.02 * flights);
+    for (const auto method : adaptive) {
+      auto state = start(half - 1e-12, -thrown);
+      auto workspace = system.workspace();
+      const auto statistics = integrate(system, state, visit + flights, tight(method, 1e-8, 1e-13), workspace);
+      BOOST_TEST(statistics.contact_events >= 2);
+      record.close("velocity on return", "m/s", state.v[0], thrown, 1e-5, "tolerance of the integrator at the events");
+      record.near("place on return", "m", state.q[0], half, 1e-5 * 2 * half,
+                  "tolerance of the integrator at the events");
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(rectangular_stiffness_in_closed_form) {
   annulus::test::Verification record("A stiffness switching between two values",
                                      "closed form of Meissner's equation: each piece a rotation in the phase plane");
