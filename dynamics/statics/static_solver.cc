@@ -31,14 +31,9 @@ bool is_open(const LumpedSystem& system, int mesh, const LumpedSystem::Workspace
   return system.meshes()[mesh].half_backlash.value_or(0.0) != 0 && w.contact[mesh] == Contact::open;
 }
 
-}  // namespace
-
-StaticSolver::StaticSolver(const LumpedSystem& system)
-    : system_(system), base_(system.stiffness()), vectors_(system.mesh_vectors()) {
-  const int meshes = static_cast<int>(vectors_.cols());
-  const Eigen::VectorXd mean = mean_stiffnesses(system);
-  rest_ = Eigen::VectorXd::Zero(system.dofs());
-  forces_.resize(meshes);
+/// K with its rigid motions fixed.
+Eigen::MatrixXd fixed_stiffness(const LumpedSystem& system, const Eigen::VectorXd& mean) {
+  Eigen::MatrixXd stiffness = system.stiffness();
   const Modes found = modes(system, mean);
   for (const auto& mode : found.modes) {
     if (mode.frequency > 0) break;
@@ -47,9 +42,21 @@ StaticSolver::StaticSolver(const LumpedSystem& system)
     if (work > 1e-9 * mode.shape.cwiseAbs().dot(system.load().cwiseAbs())) refuse_unbalanced(system, mode.shape);
     const Eigen::VectorXd momentum = system.mass() * mode.shape;
     // As stiff as the meshes: stiffer, it would drown them in rounding.
-    base_ += mean.maxCoeff() / momentum.cwiseAbs2().maxCoeff() * momentum * momentum.transpose();
+    stiffness += mean.maxCoeff() / momentum.cwiseAbs2().maxCoeff() * momentum * momentum.transpose();
   }
-  base_size_ = base_.cwiseAbs();
+  return stiffness;
+}
+
+}  // namespace
+
+StaticSolver::StaticSolver(const LumpedSystem& system)
+    : system_(system),
+      stiffness_(fixed_stiffness(system, mean_stiffnesses(system)), system.mesh_vectors(), mean_stiffnesses(system)),
+      stiffness_size_(stiffness_.stiffness().cwiseAbs()),
+      vectors_size_(stiffness_.vectors().cwiseAbs()) {
+  const auto meshes = stiffness_.vectors().cols();
+  rest_ = Eigen::VectorXd::Zero(system.dofs());
+  forces_.resize(meshes);
   anchor_ = Eigen::VectorXd::Zero(meshes);
 }
 
@@ -60,8 +67,7 @@ void StaticSolver::set_tangent(const LumpedSystem::Workspace& w) {
 }
 
 void StaticSolver::factorise(const Eigen::MatrixXd& tangent, double t) {
-  factor_.compute(base_ + vectors_ * tangent * vectors_.transpose());
-  if (factor_.info() != Eigen::Success)
+  if (!stiffness_.factorise(tangent))
     throw SolverError(fmt::format(
         "the quasi-static stiffness at t = {:g} s is not positive: a degree of freedom has no support, or a "
         "coupling subtracts more compliance from the meshes than they have",
@@ -75,13 +81,19 @@ double StaticSolver::residual(double t, const Eigen::VectorXd& q, LumpedSystem::
     w.force[m] = forces_[m] = w.elastic[m];
     if (is_open(system_, m, w)) forces_[m] += open_share * w.stiffness[m] * (w.approach[m] - anchor_[m]);
   }
-  residual_ = load_ - base_ * q - vectors_ * forces_;
+  const auto& vectors = stiffness_.vectors();
+  residual_ = load_;
+  residual_.noalias() -= stiffness_.stiffness() * q;
+  residual_.noalias() -= vectors * forces_;
   // A force carries the rounding of the motions and errors it is the difference of.
-  Eigen::VectorXd sizes = vectors_.cwiseAbs().transpose() * q.cwiseAbs();
+  const Eigen::VectorXd size = q.cwiseAbs();
+  Eigen::VectorXd sizes = vectors_size_.transpose() * size;
   for (int m = 0; m < forces_.size(); ++m)
     sizes[m] = std::abs(forces_[m]) +
                w.stiffness[m] * (sizes[m] + std::abs(w.error[m]) + system_.meshes()[m].half_backlash.value_or(0.0));
-  terms_ = load_.cwiseAbs() + base_size_ * q.cwiseAbs() + vectors_.cwiseAbs() * sizes;
+  terms_ = load_.cwiseAbs();
+  terms_.noalias() += stiffness_size_ * size;
+  terms_.noalias() += vectors_size_ * sizes;
   return terms_.maxCoeff();
 }
 
@@ -95,7 +107,7 @@ void StaticSolver::iterate(double t, Eigen::VectorXd& q, LumpedSystem::Workspace
     if ((residual_.array().abs() <= accuracy * terms_.array()).all()) return;
     set_tangent(w);
     factorise(tangent_, t);
-    const Eigen::VectorXd direction = factor_.solve(residual_), from = q;
+    const Eigen::VectorXd direction = stiffness_.solve(residual_), from = q;
     // The potential is convex along the step: a place where its slope is no steeper than at the start is soon enclosed.
     // From within the play of a bearing, where hardly any stiffness acts, it takes some twenty halves.
     constexpr double narrowest = 1e-14;
@@ -137,8 +149,11 @@ Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
 }
 
 Eigen::VectorXd StaticSolver::equilibrium(double t, LumpedSystem::Workspace& w) {
-  const int meshes = static_cast<int>(vectors_.cols());
-  if (system_.has_moving_vectors()) vectors_ = system_.mesh_vectors(t);
+  const int meshes = static_cast<int>(forces_.size());
+  if (system_.has_moving_vectors()) {
+    stiffness_.set_vectors(system_.mesh_vectors(t));
+    vectors_size_ = stiffness_.vectors().cwiseAbs();
+  }
   const auto half = [&](int m) { return system_.meshes()[m].half_backlash.value_or(0.0); };
   constexpr int tries = 200, all_at_once = 20;
   // The linear solution with the stiffnesses in the workspace: the equilibrium itself for linear meshes, near it for a
@@ -151,10 +166,10 @@ Eigen::VectorXd StaticSolver::equilibrium(double t, LumpedSystem::Workspace& w) 
   for (int m = 0; m < meshes; ++m) {
     const double offset = half(m) == 0 ? 0.0 : static_cast<int>(w.contact[m]) * half(m);
     tangent_(m, m) = (is_open(system_, m, w) ? open_share : 1.0) * w.stiffness[m];
-    load += tangent_(m, m) * (w.error[m] + offset) * vectors_.col(m);
+    load += tangent_(m, m) * (w.error[m] + offset) * stiffness_.vectors().col(m);
   }
   factorise(tangent_, t);
-  q = factor_.solve(load);
+  q = stiffness_.solve(load);
   for (int attempt = 0; attempt < tries; ++attempt) {
     iterate(t, q, w);
     int changes = 0, worst = -1;
@@ -195,7 +210,8 @@ Eigen::VectorXd StaticSolver::equilibrium(double t, LumpedSystem::Workspace& w) 
 Eigen::MatrixXd StaticSolver::force_per_error(const LumpedSystem::Workspace& w) {
   set_tangent(w);
   factorise(tangent_, w.time);
-  return tangent_ * vectors_.transpose() * factor_.solve(vectors_ * tangent_) - tangent_;
+  const auto& vectors = stiffness_.vectors();
+  return tangent_ * vectors.transpose() * stiffness_.solve(vectors * tangent_) - tangent_;
 }
 
 StaticPath static_path(const LumpedSystem& system, const Eigen::VectorXd& times) {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "dynamics/statics/meshed_stiffness.h"
 #include "dynamics/system/lumped_system.h"
 
 namespace annulus::dynamics {
@@ -40,12 +40,11 @@ class StaticSolver {
   void set_tangent(const LumpedSystem::Workspace& workspace);
 
   const LumpedSystem& system_;
-  Eigen::MatrixXd base_, vectors_;  // K with rigid motions fixed; mesh vectors b at the time as columns
+  MeshedStiffness stiffness_;  // K with rigid motions fixed; mesh vectors b at the time as columns
   Eigen::MatrixXd tangent_;
-  Eigen::MatrixXd base_size_;  // |K|, for the rounding of the residual
-  Eigen::VectorXd load_;       // f at the time
+  Eigen::MatrixXd stiffness_size_, vectors_size_;  // their amounts, for the rounding of the residual
+  Eigen::VectorXd load_;                           // f at the time
   Eigen::VectorXd residual_, terms_, forces_, rest_, anchor_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
 /// Equilibria at some times.

@@ -83,7 +83,11 @@ HarmonicBalance::HarmonicBalance(const BalanceProblem& problem, Eigen::Index sam
   lines_.resize(grid.rows * (last + 1), meshes);
   approach_lines_ = lines_;
   line_.resize(lines_.rows());
-  across_.resize(grid.rows);
+  across_.resize(last + 1, grid.rows);
+  turn_.resize(grid.rows, grid.rows);
+  for (int i = 0; i < grid.rows; ++i)
+    for (int k = 0; k < grid.rows; ++k)
+      turn_(i, k) = std::polar(1.0, 2 * std::numbers::pi * ((i * k) % grid.rows) / grid.rows);
   rate_of_.setZero(lines_.rows());
   for (int l = 0; l < grid.rows; ++l)
     for (Eigen::Index j = 0; j < last; ++j) rate_of_[l * (last + 1) + j] = grid.rate(j, l);
@@ -110,18 +114,13 @@ HarmonicBalance::HarmonicBalance(const BalanceProblem& problem, Eigen::Index sam
 
 /// Fourier transform of each line of the first angle over the rows, of which there are few.
 void HarmonicBalance::across_rows(Complex* lines, Sense sense) {
-  const int rows = this->rows();
-  if (rows == 1) return;
-  const Eigen::Index count = lines_of_row();
-  const double sign = static_cast<int>(sense);
-  Eigen::MatrixXcd turn(rows, rows);
-  for (int i = 0; i < rows; ++i)
-    for (int k = 0; k < rows; ++k) turn(i, k) = std::polar(1.0, sign * 2 * std::numbers::pi * ((i * k) % rows) / rows);
-  Eigen::Map<Eigen::MatrixXcd> of_rows(lines, count, rows);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    across_ = of_rows.row(j).transpose();
-    of_rows.row(j) = (turn * across_).transpose();
-  }
+  if (rows() == 1) return;
+  Eigen::Map<Eigen::MatrixXcd> of_rows(lines, lines_of_row(), rows());
+  if (sense == Sense::forward)
+    across_.noalias() = of_rows * turn_.conjugate();
+  else
+    across_.noalias() = of_rows * turn_;
+  of_rows = across_;
 }
 
 void HarmonicBalance::to_lines(const double* values, Complex* lines) {

@@ -109,7 +109,7 @@ class HarmonicBalance {
   void forward(const Eigen::Ref<const Eigen::MatrixXd>& values, Eigen::MatrixXcd& lines);
   void to_lines(const double* values, Complex* lines);
   void to_values(Complex* lines, double* values);
-  enum class Sense { forward = -1, back = 1 };
+  enum class Sense { forward, back };
   void across_rows(Complex* lines, Sense sense);
 
   const BalanceProblem& problem_;
@@ -119,8 +119,9 @@ class HarmonicBalance {
   Eigen::VectorXd rate_of_;                  // rad/s, of every line; 0 at the Nyquist lines, which are left out
   Eigen::MatrixXd shift_, shift_rate_;       // errors of the second angle, rows x meshes
   Eigen::MatrixXcd lines_, approach_lines_;  // spectra, up to the Nyquist line, one column per mesh
-  Eigen::VectorXcd line_, across_;
-  Eigen::MatrixXd loaded_;  // approaches under the loads, with mean stiffness
+  Eigen::VectorXcd line_;
+  Eigen::MatrixXcd across_, turn_;  // scratch; exp(i angle) of rows x lines of the second angle
+  Eigen::MatrixXd loaded_;          // approaches under the loads, with mean stiffness
   Eigen::MatrixXd rate_, force_;
 };
 
