@@ -91,11 +91,11 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
       // vibrations, not the speed: a second takes as long at any speed.
       constexpr double per_cycle = 2e-3, settling = 100;
       const auto& t = scene.transients[i];
-      const double first_speed =
+      const double settling_speed =
           std::max(std::abs(t.course().points.front().speed), dynamics::TransientOptions::slowest);
       add(fmt::format("[[transient]] {}", i + 1),
           fmt::format("{}: {} s of changing speed and torque", t.name, to_text(t.time.back())), 1,
-          per_cycle * (t.time.back() * rough->problem.mesh_frequency + settling / first_speed), {});
+          per_cycle * (t.time.back() * rough->problem.mesh_frequency + settling / settling_speed), {});
     }
   if (sampling)
     add("[monte_carlo]",

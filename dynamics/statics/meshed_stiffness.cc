@@ -20,7 +20,7 @@ void MeshedStiffness::set_vectors(Eigen::MatrixXd vectors) {
   reducible_ = false;  // each is used a few times only
 }
 
-bool MeshedStiffness::is_near_mean(const Eigen::MatrixXd& tangent) {
+bool MeshedStiffness::suits_formula(const Eigen::MatrixXd& tangent) {
   constexpr double softest = 0.05;
   if ((tangent.diagonal().array() < softest * mean_.array()).any()) return false;
   tangent_.compute(tangent);
@@ -28,7 +28,7 @@ bool MeshedStiffness::is_near_mean(const Eigen::MatrixXd& tangent) {
 }
 
 bool MeshedStiffness::factorise(const Eigen::MatrixXd& tangent) {
-  reduced_ = reducible_ && is_near_mean(tangent);
+  reduced_ = reducible_ && suits_formula(tangent);
   if (!reduced_) {
     whole_.compute(stiffness_ + vectors_ * tangent * vectors_.transpose());
     return whole_.info() == Eigen::Success;

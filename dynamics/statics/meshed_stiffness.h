@@ -28,7 +28,8 @@ class MeshedStiffness {
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& force) const;
 
  private:
-  [[nodiscard]] bool is_near_mean(const Eigen::MatrixXd& tangent);
+  /// Positive definite, and no mesh far softer than its mean.
+  [[nodiscard]] bool suits_formula(const Eigen::MatrixXd& tangent);
 
   Eigen::MatrixXd stiffness_, vectors_;
   Eigen::VectorXd mean_;

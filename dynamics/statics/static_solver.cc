@@ -49,9 +49,11 @@ Eigen::MatrixXd fixed_stiffness(const LumpedSystem& system, const Eigen::VectorX
 
 }  // namespace
 
-StaticSolver::StaticSolver(const LumpedSystem& system)
+StaticSolver::StaticSolver(const LumpedSystem& system) : StaticSolver(system, mean_stiffnesses(system)) {}
+
+StaticSolver::StaticSolver(const LumpedSystem& system, const Eigen::VectorXd& mean)
     : system_(system),
-      stiffness_(fixed_stiffness(system, mean_stiffnesses(system)), system.mesh_vectors(), mean_stiffnesses(system)),
+      stiffness_(fixed_stiffness(system, mean), system.mesh_vectors(), mean),
       stiffness_size_(stiffness_.stiffness().cwiseAbs()),
       vectors_size_(stiffness_.vectors().cwiseAbs()) {
   const auto meshes = stiffness_.vectors().cols();

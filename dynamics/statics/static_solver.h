@@ -29,6 +29,8 @@ class StaticSolver {
   [[nodiscard]] Eigen::MatrixXd force_per_error(const LumpedSystem::Workspace& workspace);
 
  private:
+  /// `mean`: N/m, of the stiffnesses of the meshes.
+  StaticSolver(const LumpedSystem& system, const Eigen::VectorXd& mean);
   /// Equilibrium at time t under `load_`, from the contact states in the workspace, which are updated.
   Eigen::VectorXd equilibrium(double t, LumpedSystem::Workspace& workspace);
   /// Equilibrium in the held contact state: one Newton step for linear meshes, a few steps with a law.

@@ -20,13 +20,13 @@ struct Course {
   [[nodiscard]] Course with_points_at(double speed) const;
 };
 
-/// Places along a course, of which one follows the other after a mesh cycle or, where the course is slower than
-/// `slowest`, after the time of a mesh cycle at that speed.
+/// Counts the mesh cycles of a course, forwards and backwards alike. Where the course is slower than `slowest`, a cycle
+/// lasts as long as at that speed.
 class CourseCycles {
  public:
   /// `slowest`: factor of the speed, > 0. `frequency`: Hz, mesh cycles at factor 1.
   CourseCycles(const Course& course, double slowest, double frequency);
-  [[nodiscard]] double last() const { return cycles_.back(); }  ///< at the last point of the course
+  [[nodiscard]] double last() const { return cycles_.back(); }  ///< number at the last point of the course
   [[nodiscard]] double time(double cycle) const;                ///< s; before 0 and behind the end at the speed there
 
  private:

@@ -95,6 +95,13 @@ Pacing::Now Pacing::at(double time) const {
           (b.speed - a.speed) / (b.time - a.time)};
 }
 
+double Pacing::least_speed(double from, double to) const {
+  double least = std::min(std::abs(at(from).speed), std::abs(at(to).speed));
+  for (const auto& point : course_.points)
+    if (point.time > from && point.time < to) least = std::min(least, std::abs(point.speed));
+  return least;
+}
+
 double Pacing::next_stop(double time) const {
   constexpr double never = std::numeric_limits<double>::infinity();
   const auto &first = course_.points.front(), &last = course_.points.back();

@@ -19,10 +19,10 @@ namespace annulus::dynamics {
 ///
 /// with the rates of errors and mesh vectors times s. K_sym and K_skew are the parts of K_Omega (centripetal terms;
 /// dampers to the housing), f_T the load from torques, f_R that from rotation. Friction and what balances it (f_L) act
-/// with the sense r of the rotation, which between +-`slipping` rises as the speed. v_0 are the velocities of the
-/// bodies in their nominal rotation, and D the torques that turn the inertias faster, in proportion to those that
-/// drive, or to those of the load. The forces of Euler on the vibration itself are left out: they are smaller than its
-/// elastic forces by the change of speed within a vibration over that of the vibration.
+/// in the sense r of the rotation, 1 or -1; below `slipping` r is in proportion to the speed. v_0 are the velocities of
+/// the bodies in their nominal rotation, and D the torques that turn the inertias faster, in proportion to those that
+/// drive, or to those of the load. The forces of Euler on the vibration itself are left out: they are to its elastic
+/// forces as the angular acceleration to the square of its natural frequency.
 class Pacing {
  public:
   /// `turning`: m/s, what the one free rotation of the system has at DOF `dof` in its nominal speed. Where the speed
@@ -39,12 +39,14 @@ class Pacing {
   };
   /// At a time, s; before 0 and behind the end nothing changes.
   [[nodiscard]] Now at(double time) const;
+  /// Smallest amount of the factor of the speed between two times.
+  [[nodiscard]] double least_speed(double from, double to) const;
   /// s: strictly after this time the next point of the course or jump of a stiffness, or infinity.
   [[nodiscard]] double next_stop(double time) const;
-  /// Gives the workspace the rates of the place.
+  /// Gives the workspace the rates of this place of the course.
   static void set_rates(const Now& now, LumpedSystem::Workspace& workspace);
 
-  /// The right-hand side at a place from that of the system, which was found with its rates in the workspace.
+  /// The right-hand side at this place from that of the system, which was found with its rates in the workspace.
   void correct(const Now& now, const double* y, double* dy) const;
   /// The same for its derivative, 2 DOFs x 2 DOFs.
   void correct(const Now& now, Eigen::Ref<Eigen::MatrixXd> jacobian) const;

@@ -30,7 +30,7 @@ static int annulus_rhs(realtype t, N_Vector y, N_Vector dy, void* data) {
   double* rate = N_VGetArrayPointer(dy);
   ++p.statistics.rhs_evaluations;
   p.system.rhs(p.system_time(t), state, rate, p.workspace);
-  if (p.pacing) p.pacing->correct(p.pacing->at(t), state, rate);
+  if (p.pacing) p.pacing->correct(p.place, state, rate);
   const int n = 2 * p.system.dofs();
   if (p.track_energy) {
     const auto power = p.system.power(t, state, p.workspace);
@@ -52,7 +52,7 @@ static int annulus_jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix matrix, 
   // from the Newton matrix; they are then corrected, not predicted.
   jacobian.setZero();
   p.system.jacobian(p.system_time(t), N_VGetArrayPointer(y), jacobian.topLeftCorner(n, n), p.workspace);
-  if (p.pacing) p.pacing->correct(p.pacing->at(t), jacobian.topLeftCorner(n, n));
+  if (p.pacing) p.pacing->correct(p.place, jacobian.topLeftCorner(n, n));
   return 0;
 }
 

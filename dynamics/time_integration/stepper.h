@@ -27,12 +27,13 @@ struct StepperProblem {
   StateTolerance tolerance{};
   IntegratorStatistics statistics{};
   const Pacing* pacing = nullptr;  ///< of integrate()
+  Pacing::Now place{};             ///< of the course, at the last system_time()
   /// The time at which the system is evaluated at time t, with its rates set in the workspace.
   double system_time(double t) {
     if (!pacing) return t;
-    const auto now = pacing->at(t);
-    Pacing::set_rates(now, workspace);
-    return now.nominal;
+    place = pacing->at(t);
+    Pacing::set_rates(place, workspace);
+    return place.nominal;
   }
   [[nodiscard]] int size() const { return 2 * system.dofs() + (track_energy ? 2 : 0); }
 };

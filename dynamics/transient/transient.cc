@@ -36,7 +36,6 @@ class CourseRun {
         options_(options),
         pacing_(of.system, options.course, of.turning.dof, of.turning.velocity, options.accelerated_by),
         cycles_(options.course, TransientOptions::slowest, frequency_),
-        turning_points_(options.course.with_points_at(0)),
         workspace_(of.system.workspace()) {
     auto& integrator = options_.integrator;
     if (!integrator.absolute_tolerance)
@@ -58,10 +57,8 @@ class CourseRun {
     for (const int m : meshes_) result.meshes.push_back(system_.meshes()[static_cast<std::size_t>(m)].name);
     result.gears = gears_;
     result.other_loads = system_.load(LoadCause::none).any() || !system_.harmonic_loads().empty();
-    const auto& points = turning_points_.points;
-    result.without_sticking = system_.has_friction() && std::any_of(points.begin(), points.end(), [](const auto& p) {
-                                return std::abs(p.speed) < Pacing::slipping;
-                              });
+    result.without_sticking =
+        system_.has_friction() && pacing_.least_speed(0, options_.course.points.back().time) < Pacing::slipping;
     settle(result, force_scale);
     result.nominal = nominal();
     const int cycles = std::max(1, static_cast<int>(std::ceil(in_course - 1e-9)));
@@ -194,16 +191,6 @@ class CourseRun {
     }
   }
 
-  /// Whether samples between these cycles are equidistant in the mesh cycle.
-  [[nodiscard]] bool has_orders(double first, double last) const {
-    const double begin = cycles_.time(first), end = cycles_.time(last);
-    const auto slow = [](double speed) { return std::abs(speed) < TransientOptions::slowest; };
-    const auto& points = turning_points_.points;
-    return !slow(pacing_.at(begin).speed) && !slow(pacing_.at(end).speed) &&
-           std::none_of(points.begin(), points.end(),
-                        [&](const auto& p) { return p.time > begin && p.time < end && slow(p.speed); });
-  }
-
   /// With a Hann window, which keeps its neighbours apart while the speed changes.
   void add_spectra(TransientResponse& result, const Eigen::MatrixXf& force, int cycles) const {
     result.spectrum_of = result.peak().mesh;
@@ -224,7 +211,7 @@ class CourseRun {
       part = (part.array() - part.mean()) * hann;
       const auto lines = spectrum(part, window);
       result.order = lines.order.head(orders);
-      if (has_orders(first, first + window))
+      if (pacing_.least_speed(cycles_.time(first), cycles_.time(first + window)) >= TransientOptions::slowest)
         result.amplitude.col(w) = lines.amplitude.head(orders);
       else
         result.amplitude.col(w).setConstant(not_known);
@@ -237,7 +224,6 @@ class CourseRun {
   TransientOptions options_;
   Pacing pacing_;
   CourseCycles cycles_;
-  Course turning_points_;  // with one at every change of the sense of rotation
   LumpedSystem::Workspace workspace_;
   std::vector<int> meshes_;
   int gears_ = 0;

@@ -14,6 +14,7 @@
 #include "dynamics/time_integration/integrate.h"
 #include "geometry/gear_pair.h"
 #include "geometry/planetary.h"
+#include "tests/dynamics/fixed_steps.h"
 #include "tests/dynamics/stages.h"
 #include "tests/geometry/gears.h"
 #include "tests/verification_record.h"
@@ -337,10 +338,7 @@ BOOST_AUTO_TEST_CASE(motion_of_a_pair_by_its_teeth) {
     (void)integrate(system, state, 20 / pair.mesh_frequency(), options, workspace, observer, &pacing);
     double t = 0, worst = 0, most = 0, least = 1e9;
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const auto steps = static_cast<long>(std::ceil((times[i] - t) / 2e-7));
-      const double h = steps > 0 ? (times[i] - t) / static_cast<double>(steps) : 0;
-      for (long k = 0; k < steps; ++k) other.step(t + static_cast<double>(k) * h, h, y);
-      t = times[i];
+      annulus::test::step_to(t, times[i], 2e-7, other, y);
       worst = std::max(worst, std::abs(forces[i] - other.force(y)));
       if (i > 1000) most = std::max(most, other.force(y)), least = std::min(least, other.force(y));
     }

@@ -12,6 +12,7 @@
 #include "dynamics/system/drive_line.h"
 #include "dynamics/systems/helical_pair/pair_response.h"
 #include "dynamics/systems/planetary/response.h"
+#include "tests/dynamics/fixed_steps.h"
 #include "tests/dynamics/pairs.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
@@ -154,10 +155,7 @@ double difference_in_time(const HelicalPair& pair, const Course& course, double 
   (void)integrate(of.system, state, course.points.back().time, options, workspace, observer, &pacing);
   double t = 0, worst = 0, least = 0, most = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const auto steps = static_cast<long>(std::ceil((times[i] - t) / step));
-    const double h = steps > 0 ? (times[i] - t) / static_cast<double>(steps) : 0;
-    for (long k = 0; k < steps; ++k) exact.step(t + static_cast<double>(k) * h, h, other);
-    t = times[i];
+    annulus::test::step_to(t, times[i], step, exact, other);
     const auto expected = exact.contact(t, other);
     worst = std::max(worst, std::abs(deflections[i] - expected.deflection));
     most = std::max(most, expected.deflection);
