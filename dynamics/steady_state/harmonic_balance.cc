@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "dynamics/steady_state/second_angle.h"
 
 namespace annulus::dynamics {
 
@@ -290,59 +291,9 @@ Eigen::MatrixXd HarmonicBalance::refined(const Eigen::MatrixXd& values, Eigen::I
   return result;
 }
 
-namespace {
-
-/// Amplitudes c_l of a function of the second angle, l = 0 ... (rows - 1)/2, for every sample of the first one (samples
-/// x amplitudes): c_0 + 2 Re sum c_l exp(i l angle).
-Eigen::MatrixXcd amplitudes_over_rows(const Eigen::Ref<const Eigen::VectorXd>& values, int rows) {
-  const Eigen::Index samples = values.size() / rows;
-  const auto of_rows = values.reshaped(samples, rows);
-  Eigen::MatrixXcd result(samples, (rows + 1) / 2);
-  for (int l = 0; l < result.cols(); ++l) {
-    Eigen::VectorXcd turn(rows);
-    for (int i = 0; i < rows; ++i) turn[i] = std::polar(1.0 / rows, -2 * std::numbers::pi * ((l * i) % rows) / rows);
-    result.col(l) = of_rows * turn;
-  }
-  return result;
-}
-
-}  // namespace
-
 Eigen::MatrixXd HarmonicBalance::along(const Eigen::MatrixXd& values, Eigen::Index count) const {
-  if (rows() == 1) return values.replicate((count + values.rows() - 1) / values.rows(), 1).topRows(count);
-  const double angle = problem_.grid.second_rate * problem_.grid.period / static_cast<double>(samples());
-  const int waves = (rows() - 1) / 2;
-  Eigen::ArrayXXcd turn(count, waves);  // twice exp(i l angle)
-  for (int l = 0; l < waves; ++l)
-    for (Eigen::Index i = 0; i < count; ++i) turn(i, l) = std::polar(2.0, static_cast<double>((l + 1) * i) * angle);
-  Eigen::MatrixXd result(count, values.cols());
-  for (Eigen::Index m = 0; m < values.cols(); ++m) {
-    const Eigen::MatrixXcd amplitudes = amplitudes_over_rows(values.col(m), rows());
-    for (Eigen::Index begin = 0; begin < count; begin += samples()) {
-      const Eigen::Index part = std::min(samples(), count - begin);
-      auto at = result.col(m).segment(begin, part).array();
-      at = amplitudes.col(0).head(part).real().array();
-      for (int l = 0; l < waves; ++l)
-        at += (amplitudes.col(l + 1).head(part).array() * turn.col(l).segment(begin, part)).real();
-    }
-  }
-  return result;
-}
-
-Eigen::MatrixXd HarmonicBalance::with_rows(const Eigen::MatrixXd& values, int more) const {
-  Eigen::MatrixXd result(samples() * more, values.cols());
-  for (Eigen::Index m = 0; m < values.cols(); ++m) {
-    const Eigen::MatrixXcd amplitudes = amplitudes_over_rows(values.col(m), rows());
-    for (int row = 0; row < more; ++row) {
-      auto part = result.col(m).segment(row * samples(), samples());
-      part = amplitudes.col(0).real();
-      for (Eigen::Index l = 1; l < amplitudes.cols(); ++l)
-        part +=
-            2 *
-            (amplitudes.col(l) * std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(l * row) / more)).real();
-    }
-  }
-  return result;
+  const double advance = problem_.grid.second_rate * problem_.grid.period / static_cast<double>(samples());
+  return along_both_angles(values, rows(), advance, count);
 }
 
 void HarmonicBalance::motion(Eigen::MatrixXd& displacement, Eigen::MatrixXd& velocity) {

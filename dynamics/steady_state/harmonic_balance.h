@@ -92,8 +92,6 @@ class HarmonicBalance {
   [[nodiscard]] Eigen::MatrixXd force_change(const Eigen::MatrixXd& change) const;
   /// A function of both angles at `count` times of the first angle's spacing, from time 0.
   [[nodiscard]] Eigen::MatrixXd along(const Eigen::MatrixXd& values, Eigen::Index count) const;
-  /// A function of both angles at more values of the second one.
-  [[nodiscard]] Eigen::MatrixXd with_rows(const Eigen::MatrixXd& values, int more) const;
   /// Displacement and velocity of all DOFs (DOFs x samples) at the last `residual`.
   void motion(Eigen::MatrixXd& displacement, Eigen::MatrixXd& velocity);
 

@@ -12,6 +12,7 @@
 #include "dynamics/statics/static_solver.h"
 #include "dynamics/steady_state/harmonic_balance.h"
 #include "dynamics/steady_state/newton_krylov.h"
+#include "dynamics/steady_state/second_angle.h"
 
 namespace annulus::dynamics {
 
@@ -236,8 +237,6 @@ class Levels {
                               : rough_tolerance * reference_.scale * mean_.maxCoeff();
     for (;;) {
       HarmonicBalance balance(*problem_, level);
-      Eigen::MatrixXd residual(approach_.rows(), approach_.cols());
-      balance.residual(approach_, residual);
       balance.forces(approach_, balance.rate_of(approach_), force_);
       const Eigen::MatrixXd force = balance.along(force_, in_window(level));
       if (before.size() > 0) rows_difference_ = (force - before).cwiseAbs().maxCoeff();
@@ -252,7 +251,7 @@ class Levels {
         failed_ = true;
         return;
       }
-      approach_ = balance.with_rows(approach_, rows);
+      approach_ = at_rows(approach_, grid_.rows, rows);
       grid_.rows = rows;
       problem_.emplace(balance_problem(reduced_, *linear_, mean_, grid_, samples_of(options_.samples_per_cycle)));
       HarmonicBalance finer(*problem_, level);

@@ -90,18 +90,35 @@ std::optional<TwoFrequencies> two_frequencies(const LumpedSystem& system, double
   return best;
 }
 
-LumpedSystem without_waves(const LumpedSystem& system, const std::vector<SecondWave>& waves) {
+namespace {
+
+/// The system with other errors where those of the second angle were.
+template <class Changed>
+LumpedSystem with_changed_waves(const LumpedSystem& system, const std::vector<SecondWave>& waves, Changed changed) {
   LumpedSystemBuilder builder;
   builder.add(system);
   for (int m = 0; m < static_cast<int>(system.meshes().size()); ++m) {
-    auto errors = system.meshes()[static_cast<std::size_t>(m)].errors;
-    std::erase_if(errors, [&](const HarmonicError& error) {
-      return std::any_of(waves.begin(), waves.end(),
-                         [&](const SecondWave& wave) { return wave.mesh == m && wave.error == error; });
-    });
+    std::vector<HarmonicError> errors;
+    for (const auto& error : system.meshes()[static_cast<std::size_t>(m)].errors) {
+      const bool turns = std::any_of(waves.begin(), waves.end(),
+                                     [&](const SecondWave& wave) { return wave.mesh == m && wave.error == error; });
+      if (const auto kept = turns ? changed(error) : std::optional(error)) errors.push_back(*kept);
+    }
     builder.set_errors(m, std::move(errors));
   }
   return builder.build();
+}
+
+}  // namespace
+
+LumpedSystem without_waves(const LumpedSystem& system, const std::vector<SecondWave>& waves) {
+  return with_changed_waves(system, waves, [](const HarmonicError&) { return std::optional<HarmonicError>(); });
+}
+
+LumpedSystem with_waves_at(const LumpedSystem& system, const TwoFrequencies& angles, double angle) {
+  return with_changed_waves(system, angles.waves, [&](const HarmonicError& error) {
+    return std::optional(HarmonicError{error.amount, 0, error.rate / angles.second_rate * angle + error.phase});
+  });
 }
 
 }  // namespace annulus::dynamics

@@ -22,5 +22,7 @@ struct TwoFrequencies {
                                                             int period);
 /// The system without the errors of the second angle.
 [[nodiscard]] LumpedSystem without_waves(const LumpedSystem& system, const std::vector<SecondWave>& waves);
+/// The system with the errors of the second angle held at a value of it (rad).
+[[nodiscard]] LumpedSystem with_waves_at(const LumpedSystem& system, const TwoFrequencies& angles, double angle);
 
 }  // namespace annulus::dynamics

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dynamics/steady_state/periodic_response.h"
+#include "dynamics/steady_state/quasi_static_path.h"
 #include "dynamics/systems/planetary/response.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
@@ -140,6 +141,27 @@ BOOST_AUTO_TEST_CASE(loss_of_contact) {
   BOOST_TEST(!found.over_angles.trouble.empty());
   BOOST_TEST(found.over_period.converged);
   BOOST_TEST(found.over_period.open.maxCoeff() > 0);
+}
+
+// Equilibria at few values of the second angle stand for those of all 1485 mesh cycles.
+BOOST_AUTO_TEST_CASE(equilibria_over_two_angles) {
+  Verification record("Static equilibria over two angles", "an equilibrium at every position");
+  const auto stage = on_24_pins();
+  const auto system = assemble(stage);
+  const int cycles = stage.error_period(), positions = 8;
+  Eigen::MatrixXd over_angles, at_every_position;
+  const double seconds =
+      seconds_of([&] { over_angles = quasi_static_forces(system, stage.mesh_frequency(), cycles, positions); });
+  const double seconds_at_every_position = seconds_of([&] {
+    at_every_position = static_path(system, Eigen::VectorXd::LinSpaced(cycles * positions, 0, cycles * positions - 1) /
+                                                (positions * stage.mesh_frequency()))
+                            .force;
+  });
+  BOOST_TEST_MESSAGE("two angles: " << seconds << " s, every position: " << seconds_at_every_position << " s");
+  BOOST_REQUIRE(over_angles.cols() == at_every_position.cols());
+  record.at_most("mesh force, largest difference over the largest one", "",
+                 (over_angles - at_every_position).cwiseAbs().maxCoeff() / at_every_position.cwiseAbs().maxCoeff(),
+                 1e-4, "values of the second angle");
 }
 
 BOOST_AUTO_TEST_CASE(steady_response_over_two_angles) {

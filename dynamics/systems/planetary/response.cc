@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "dynamics/statics/static_solver.h"
+#include "dynamics/steady_state/quasi_static_path.h"
 
 namespace annulus::dynamics {
 
@@ -114,10 +115,9 @@ QuasiStatic quasi_static(const PlanetaryStage& stage, int positions_per_cycle, i
         fmt::format("quasi-static positions need a carrier that turns against the ring; their speeds are {} and {} "
                     "rad/s",
                     stage.carrier_speed, stage.ring_speed));
-  const int positions = positions_per_cycle * std::min(stage.error_period(), max_cycles);
-  const auto path = static_path(assemble(stage), Eigen::VectorXd::LinSpaced(positions, 0, positions - 1) /
-                                                     (positions_per_cycle * stage.mesh_frequency()));
-  return {path.force.topRows(stage.planets()), path.force.middleRows(stage.planets(), stage.planets())};
+  const Eigen::MatrixXd force = quasi_static_forces(assemble(stage), stage.mesh_frequency(),
+                                                    std::min(stage.error_period(), max_cycles), positions_per_cycle);
+  return {force.topRows(stage.planets()), force.middleRows(stage.planets(), stage.planets())};
 }
 
 }  // namespace annulus::dynamics
