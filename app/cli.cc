@@ -77,15 +77,25 @@ std::string unknown_command(const CLI::App& app) {
                      near.empty() ? "" : ", did you mean " + near + "?", known);
 }
 
+/// "run", or of a command in parts "study run".
+std::string name_of(const CLI::App& command) {
+  const auto parts = command.get_subcommands();
+  return parts.empty() ? command.get_name() : command.get_name() + " " + parts.front()->get_name();
+}
+
+std::string whole_name(const CLI::App& command, const CLI::App& app) {
+  const auto* parent = command.get_parent();
+  return parent == &app ? command.get_name() : parent->get_name() + " " + command.get_name();
+}
+
 /// The message about an option that the command, or annulus without one, does not have; empty when all are known.
 std::string unknown_option(const CLI::App& app, int argc, char** argv) {
   const CLI::App* command = &app;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--") break;
-    if (command == &app)
-      for (const auto* named : app.get_subcommands({}))
-        if (named->get_name() == word) command = named;
+    for (const auto* named : command->get_subcommands({}))
+      if (named->get_name() == word) command = named;
     if (word.size() < 2 || word.front() != '-' || std::isdigit(static_cast<unsigned char>(word[1])) != 0) continue;
     const auto name = word.substr(0, word.find('='));
     const bool one_letter = name[1] != '-';
@@ -95,7 +105,7 @@ std::string unknown_option(const CLI::App& app, int argc, char** argv) {
       for (const auto& other : option->get_lnames()) known.push_back("--" + other);
     const auto near = nearest(name, known);
     return fmt::format("{}: {} has no such option{}; the options are {}", name,
-                       command == &app ? "annulus" : "annulus " + command->get_name(),
+                       command == &app ? "annulus" : "annulus " + whole_name(*command, app),
                        near.empty() ? "" : ", did you mean " + near + "?", fmt::join(known, ", "));
   }
   return "";
@@ -163,6 +173,29 @@ void declare(CLI::App& app, Arguments& arguments) {
   examples(cache(limits(out(add_command(app, arguments, "tradeoff",
                                         "Measures all ways to compute the stage: error against time and memory")))),
            "  annulus tradeoff my.toml              then open out/my/tradeoff.html");
+  auto* study = app.add_subcommand("study", "The studies of a scene on many cores or machines: plan, run, collect");
+  study->require_subcommand(1);
+  auto* divide =
+      out(add_command(*study, arguments, "plan",
+                      "Writes the parts of the studies with predicted times, and scripts that start workers"));
+  divide->add_option("--shards", arguments.shards, "Workers that share the parts")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  const auto of_study = [&](const char* name, const char* what) {
+    auto* command = study->add_subcommand(name, what);
+    command->add_option("folder", arguments.folder, "Folder that annulus study plan wrote")->required();
+    add_common(*command, arguments);
+    return command;
+  };
+  auto* work = limits(of_study("run", "Computes the parts of one worker that nobody has computed yet"));
+  work->add_option("--shard", arguments.shard, "Which worker of how many: 3/7")->required();
+  auto* merge = json(limits(of_study("collect", "Merges what the workers found; report and tables in FOLDER/results")));
+  examples(divide,
+           "  annulus study plan my.toml -o my_study --shards 100\n"
+           "  my_study/study.sh                     all workers on this machine\n"
+           "  sbatch my_study/study.sbatch          all workers on a cluster");
+  examples(work, "  annulus study run my_study --shard 3/100");
+  examples(merge, "  annulus study collect my_study        then open my_study/results/report.html");
   auto* compare =
       app.add_subcommand("compare", "Finished runs side by side: results, errors, inputs that differ, cost");
   compare->add_option("folders", arguments.folders, "Folders that annulus run wrote, two or more");
@@ -275,12 +308,13 @@ std::string system_message(const std::system_error& error) {
 
 /// Refuses what the limits of the system do not let end.
 void check_system_limits(const std::string& command, const Arguments& arguments) {
-  for (const char* computes : {"run", "solve", "dynamics", "statics", "tradeoff"})
+  for (const char* computes : {"run", "solve", "dynamics", "statics", "tradeoff", "study run", "study collect"})
     if (command == computes) {
       ensure_stack();
       return reserve_blas_memory(arguments.threads);
     }
-  if (command == "plan" || command == "check" || command == "geometry") reserve_blas_memory(1);
+  if (command == "plan" || command == "check" || command == "geometry" || command == "study plan")
+    reserve_blas_memory(1);
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -324,6 +358,9 @@ int parse_and_run(int argc, char** argv) {
       {"dynamics", [&] { dynamics_command(arguments); }},
       {"statics", [&] { statics_command(arguments); }},
       {"tradeoff", [&] { tradeoff_command(arguments); }},
+      {"study plan", [&] { study_plan_command(arguments); }},
+      {"study run", [&] { study_run_command(arguments); }},
+      {"study collect", [&] { study_collect_command(arguments); }},
       {"compare", [&] { compare_command(arguments); }},
       {"plan", [&] { plan_command(arguments); }},
       {"check", [&] { check_command(arguments); }},
@@ -334,7 +371,7 @@ int parse_and_run(int argc, char** argv) {
       {"explain", [&] { explain_command(arguments); }},
       {"completion", [&] { fmt::print("{}", completion_script(app, arguments.shell)); }}};
   try {
-    const auto command = app.get_subcommands().front()->get_name();
+    const auto command = name_of(*app.get_subcommands().front());
     check_system_limits(command, arguments);
     commands.at(command)();
     // What stands in the buffer is written only now.

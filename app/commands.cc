@@ -21,6 +21,7 @@
 #include "app/results/figure_table.h"
 #include "app/results/result_folder.h"
 #include "app/results/user_cache.h"
+#include "app/run/divided_study.h"
 #include "app/run/finished_run.h"
 #include "app/run/pipeline.h"
 #include "app/scene/example_scenes.h"
@@ -115,12 +116,8 @@ void warn_of_results(const std::string& summary) {
   }
 }
 
-void run_and_print(const Arguments& arguments, bool with_dynamics) {
-  std::string budget;
-  const Scene scene = wanted_scene(arguments, budget);
-  if (!budget.empty()) log::info(budget);
-  auto options = run_options(arguments, scene);
-  options.with_dynamics = with_dynamics;
+/// `budget`: what was chosen for one; empty without.
+void run_and_print(const Arguments& arguments, const Scene& scene, RunOptions options, const std::string& budget) {
   check_out(options.out);
   auto folder = folder_of(options, scene);
   options.folder = &folder;
@@ -130,7 +127,7 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
     text = *earlier + "reused   everything: nothing has changed since the run above\n";
   } else {
     folder.check();
-    check_scene(scene, arguments, with_dynamics);
+    check_scene(scene, arguments, options.with_dynamics);
     hold(arguments, options);
     remove_unfinished_files(options.out);
     remove_unfinished_files(options.cache);
@@ -147,6 +144,15 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
     if (!budget.empty()) text += budget + "\n";
     fmt::print("{}report  {}\n", text, (options.out / "report.html").string());
   }
+}
+
+void run_and_print(const Arguments& arguments, bool with_dynamics) {
+  std::string budget;
+  const Scene scene = wanted_scene(arguments, budget);
+  if (!budget.empty()) log::info(budget);
+  auto options = run_options(arguments, scene);
+  options.with_dynamics = with_dynamics;
+  run_and_print(arguments, scene, std::move(options), budget);
 }
 
 }  // namespace
@@ -262,6 +268,32 @@ void statics_command(const Arguments& arguments) {
     else if (!arguments.quiet)
       fmt::print("{}\nreport  {}\n", statics.text, (options.out / "statics.html").string());
   });
+}
+
+void study_plan_command(const Arguments& arguments) {
+  const Scene scene = read_scene_with(arguments.scene, arguments.settings);
+  const auto folder =
+      arguments.out.empty() ? std::filesystem::path("study") / scene.file.stem() : std::filesystem::path(arguments.out);
+  check_out(folder);
+  check_scene(scene, arguments);
+  check_studies(scene);
+  fmt::print("{}", plan_study(scene, folder, arguments.shards));
+}
+
+void study_run_command(const Arguments& arguments) {
+  const RunOptions options{.threads = arguments.threads, .command = arguments.command_line};
+  const auto shard = Shard::parse(arguments.shard);
+  HeldLimits limits{.stored = arguments.folder};
+  if (arguments.max_memory) limits.memory_MB = parse_memory(*arguments.max_memory);
+  if (arguments.max_time) limits.seconds = parse_duration(*arguments.max_time, "--max-time");
+  hold_limits(limits);
+  fmt::print("{}", run_shard(arguments.folder, shard, options));
+}
+
+void study_collect_command(const Arguments& arguments) {
+  const RunOptions options{.threads = arguments.threads, .command = "annulus study collect"};
+  auto [scene, collecting] = collect_study(arguments.folder, options);
+  run_and_print(arguments, scene, std::move(collecting), "");
 }
 
 void compare_command(const Arguments& arguments) {

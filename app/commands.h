@@ -8,14 +8,14 @@ namespace annulus::app {
 
 /// What the command line says, whatever the command.
 struct Arguments {
-  std::string scene, out, cache, key, format, ring, kind, rexs, example, shell;
+  std::string scene, out, cache, key, format, ring, kind, rexs, example, shell, folder, shard;
   std::string command_line;          ///< as a whole
   std::vector<std::string> folders;  ///< of compare
   std::optional<std::string> budget, max_memory, max_time;
   std::vector<std::string> settings;  ///< of --set
   bool inputs = false, minimal = false, json = false, strict = false, markdown = false, definitions = false,
        clear = false, quiet = false, verbose = false;
-  int threads = 1;
+  int threads = 1, shards = 8;
 };
 
 /// The commands, each from checking its arguments to its last line of output. They throw what the stages throw.
@@ -25,6 +25,9 @@ void dynamics_command(const Arguments& arguments);
 void statics_command(const Arguments& arguments);
 void tradeoff_command(const Arguments& arguments);
 void plan_command(const Arguments& arguments);
+void study_plan_command(const Arguments& arguments);
+void study_run_command(const Arguments& arguments);
+void study_collect_command(const Arguments& arguments);
 void compare_command(const Arguments& arguments);
 void check_command(const Arguments& arguments);
 void geometry_command(const Arguments& arguments);

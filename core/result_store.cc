@@ -90,21 +90,9 @@ void for_each_result(const fs::path& folder, Visit visit) {
   }
 }
 
-}  // namespace
-
-ResultStore::ResultStore(fs::path folder, std::string program, std::uintmax_t most_bytes)
-    : folder_(std::move(folder)), program_(std::move(program)), most_bytes_(most_bytes) {}
-
-std::string ResultStore::name_of(const std::string& kind, std::string_view inputs) const {
-  const boost::uuids::name_generator_sha1 generate(boost::uuids::ns::oid());
-  std::string all = fmt::format("{}\n{}\n", program_, kind);
-  all += inputs;
-  return fmt::format("{}/{}{}", kind, boost::uuids::to_string(generate(all.data(), all.size())), ending);
-}
-
-std::optional<std::string> ResultStore::find(const std::string& kind, std::string_view inputs) const {
-  const auto name = name_of(kind, inputs);
-  const auto path = folder_ / name;
+/// The content of the result of this name in a folder, if it is there; a damaged one is removed.
+std::optional<std::string> content_in(const fs::path& folder, const std::string& name) {
+  const auto path = folder / name;
   std::error_code none;
   if (!fs::is_regular_file(path, none)) return std::nullopt;
   try {
@@ -116,6 +104,34 @@ std::optional<std::string> ResultStore::find(const std::string& kind, std::strin
     fs::remove(path, none);
     return std::nullopt;
   }
+}
+
+}  // namespace
+
+ResultStore::ResultStore(fs::path folder, std::string program, std::uintmax_t most_bytes, std::vector<fs::path> others)
+    : folder_(std::move(folder)), program_(std::move(program)), most_bytes_(most_bytes), others_(std::move(others)) {}
+
+std::string ResultStore::name_of(const std::string& kind, std::string_view inputs) const {
+  const boost::uuids::name_generator_sha1 generate(boost::uuids::ns::oid());
+  std::string all = fmt::format("{}\n{}\n", program_, kind);
+  all += inputs;
+  return fmt::format("{}/{}{}", kind, boost::uuids::to_string(generate(all.data(), all.size())), ending);
+}
+
+std::optional<std::string> ResultStore::find(const std::string& kind, std::string_view inputs) const {
+  const auto name = name_of(kind, inputs);
+  auto content = content_in(folder_, name);
+  for (auto other = others_.begin(); !content && other != others_.end(); ++other) content = content_in(*other, name);
+  return content;
+}
+
+std::vector<std::string> ResultStore::find_all(const std::string& kind, std::string_view inputs) const {
+  const auto name = name_of(kind, inputs);
+  std::vector<std::string> list;
+  if (auto content = content_in(folder_, name)) list.push_back(std::move(*content));
+  for (const auto& other : others_)
+    if (auto content = content_in(other, name)) list.push_back(std::move(*content));
+  return list;
 }
 
 void ResultStore::keep(const std::string& kind, std::string_view inputs, std::string_view content,

@@ -20,12 +20,16 @@ class ResultStore {
   static constexpr std::uintmax_t usual_most_bytes = 1'000'000'000;
 
   /// `program`: its identity; results of another one are never found. The files stay below `most_bytes` together:
-  /// those unused for the longest time are removed.
-  ResultStore(std::filesystem::path folder, std::string program, std::uintmax_t most_bytes = usual_most_bytes);
+  /// those unused for the longest time are removed. `others`: folders of results in which it looks too, and to which it
+  /// adds nothing.
+  ResultStore(std::filesystem::path folder, std::string program, std::uintmax_t most_bytes = usual_most_bytes,
+              std::vector<std::filesystem::path> others = {});
 
   /// The cached content of this kind (a word, the name of a folder) that depends on `inputs` (any bytes); nothing where
-  /// there is none.
+  /// there is none. The own folder comes first, then the others in their order.
   [[nodiscard]] std::optional<std::string> find(const std::string& kind, std::string_view inputs) const;
+  /// That of every folder that has one: parts of one result, of several workers.
+  [[nodiscard]] std::vector<std::string> find_all(const std::string& kind, std::string_view inputs) const;
 
   enum class Packing { compressed, plain };  ///< plain: for numbers, which do not shrink
   /// Caches the content. One that cannot be written is reported and not cached.
@@ -57,6 +61,7 @@ class ResultStore {
   std::filesystem::path folder_;
   std::string program_;
   std::uintmax_t most_bytes_;
+  std::vector<std::filesystem::path> others_;
   mutable std::mutex lock_;
   mutable std::map<std::string, std::mutex> being_made_;  ///< by file name
   mutable std::optional<std::uintmax_t> bytes_;           ///< of all files, as far as this process knows

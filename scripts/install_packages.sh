@@ -15,7 +15,8 @@ packages=(
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
   zlib1g-dev libhdf5-dev libmatio-dev libpugixml-dev librsvg2-dev libjs-chart.js libjs-three node-pako
 )
-tests=(python3 clang-format)
+tests=(python3 clang-format
+  parallel slurmctld slurmd slurm-client munge)  # they start the workers of a study
 all=(
   calculix-ccx octave    # benchmarks compare with them
   python3-h5py chromium  # they read exports and reports

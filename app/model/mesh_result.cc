@@ -56,6 +56,9 @@ std::map<std::string, double> facts_of(const MeshModel& model, const fem::Loaded
   return facts;
 }
 
+constexpr const char* course_of_solve[] = {"mesh_seconds",      "condense_seconds", "contact_seconds",
+                                           "processor_seconds", "condensed_teeth",  "reused_teeth"};
+
 template <class Visit>
 void at_load(const StiffnessTable& table, std::size_t load, Visit visit) {
   for (int position = 0; position < table.positions(); ++position) {
@@ -310,6 +313,10 @@ std::vector<double> partner_compliance_of(const MeshModel& model, const fem::Loa
 }
 
 }  // namespace
+
+void leave_out_course_of_solve(MeshResult& result) {
+  for (const char* name : course_of_solve) result.facts.erase(name);
+}
 
 MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   MeshResult result{.model = model,

@@ -98,6 +98,9 @@ inline constexpr std::pair<const char*, Csv MeshResult::*> side_tables[] = {
 /// What lumped models read of a mesh: without pictures and tables for people.
 [[nodiscard]] MeshResult stiffness_alone(const MeshResult& mesh);
 
+/// Leaves out how the solve went, which is another time another: seconds, and how many teeth were found in the cache.
+void leave_out_course_of_solve(MeshResult& result);
+
 /// Packs the finite-element result of a model into its tables and pictures.
 [[nodiscard]] MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved);
 /// The stiffness a scene gives instead: a table read from its file, or the wave sampled over one cycle.

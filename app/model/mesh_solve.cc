@@ -106,10 +106,9 @@ MeshResult computed_stiffness(const MeshModel& model, const std::string& folder,
   note_reuse(options, model.label(), reused);
   if (options.for_study) count_reuse(options, study_meshes, reused ? 1 : 0, reused ? 0 : 1);
   result.model = model;
-  if (reused) {
-    log::info(fmt::format("{}: unchanged, reused", model.label()));
-    save(result, out);
-  }
+  if (reused) log::info(fmt::format("{}: unchanged, reused", model.label()));
+  if (options.times == Times::left_out) leave_out_course_of_solve(result);
+  if (reused || options.times == Times::left_out) save(result, out);
   result.reused = reused;
   result.bodies.clear();
   return std::move(result);

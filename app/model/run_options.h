@@ -16,6 +16,10 @@ namespace annulus::app {
 
 class ResultFolder;
 
+/// Whether results state when and how fast they were found. Merged results of many workers leave it out: they are the
+/// same whoever computed what.
+enum class Times { stated, left_out };
+
 struct RunOptions {
   std::filesystem::path out{};     ///< folder of all results
   std::filesystem::path cache{};   ///< folder of cached results; empty: OUT/cache
@@ -23,6 +27,7 @@ struct RunOptions {
   int threads = 1;
   std::string command{};      ///< the command line, for the report
   bool with_dynamics = true;  ///< false: meshes, transmission error and stiffness only
+  Times times = Times::stated;
   // Set by the run itself (with_reuse); without them nothing is noted and everything is computed.
   std::shared_ptr<Reuse> reuse{};
   std::shared_ptr<const ResultStore> store{};

@@ -233,6 +233,8 @@ std::vector<StudyCase> sensitivity_cases(const Scene& scene) {
   return cases;
 }
 
+StudyCase nominal_case_of_sensitivity() { return {{}, "[sensitivity] nominal", ""}; }
+
 std::vector<StudyCase> all_cases(const Scene& scene) {
   std::vector<StudyCase> all;
   const auto add = [&](const std::vector<StudyCase>& cases) { all.insert(all.end(), cases.begin(), cases.end()); };

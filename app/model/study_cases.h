@@ -45,6 +45,8 @@ struct StudyCase {
 [[nodiscard]] std::vector<std::string> sensitivity_inputs(const Scene& scene);
 /// Two per input: divided, multiplied.
 [[nodiscard]] std::vector<StudyCase> sensitivity_cases(const Scene& scene);
+/// The scene as it is, found in the way of the others.
+[[nodiscard]] StudyCase nominal_case_of_sensitivity();
 
 /// The cases of all sweeps, grids, the load spectrum and [sensitivity].
 [[nodiscard]] std::vector<StudyCase> all_cases(const Scene& scene);

@@ -65,7 +65,8 @@ std::shared_ptr<const SystemRun> run_system(const Scene& scene, const RunOptions
   const auto result = std::make_shared<SystemRun>(scene);
   auto& run = *result;
   run.command = options.command;
-  run.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(std::time(nullptr)));
+  const bool timed = options.times == Times::stated;
+  if (timed) run.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(std::time(nullptr)));
   if (scene.reference) run.reference = read_reference(file_of_scene(scene, "reference", *scene.reference));
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
   run.plan = run.system->plan(options.threads);
@@ -82,10 +83,12 @@ std::shared_ptr<const SystemRun> run_system(const Scene& scene, const RunOptions
     run.studies = run_studies(StudySubject(run, options));
   }
   run.reuse = options.reuse;
-  run.timings = timings_of(run);
-  run.peak_memory_MB = peak_memory_MB();
-  run.cost = actual_costs(run);
-  keep_costs(run.cost);
+  if (timed) {
+    run.timings = timings_of(run);
+    run.peak_memory_MB = peak_memory_MB();
+    run.cost = actual_costs(run);
+    keep_costs(run.cost);
+  }
   const auto& specs = system_kind(scene.stage.kind).figures();
   write_file(options.out / "figures.csv", figures_csv(specs, run.variants()));
   write_file(options.out / "summary.json", summary_json(run));
@@ -108,7 +111,7 @@ std::string summary_json(const SystemRun& run) {
   json["inputs_id"] = inputs_id(run);
   json["inputs"] = inputs_json(run.plan.inputs);
   for (const auto& [step, seconds] : run.timings) json["timings_s"][step] = seconds;
-  json["peak_memory_MB"] = run.peak_memory_MB;
+  if (!run.timings.empty()) json["peak_memory_MB"] = run.peak_memory_MB;
   if (!run.cost.empty()) json["cost"] = cost_json(run.cost);
   if (run.reuse) json["reuse"] = run.reuse->json();
   return json.dump(2) + "\n";
@@ -124,9 +127,12 @@ std::string run_text(const SystemRun& run) {
       text += to_text(warning) + "\n";
   }
   if (notes > 0) text += fmt::format("{} notes: in the report and in summary.json\n", notes);
-  text += "\ntime   ";
-  for (const auto& [step, seconds] : run.timings) text += fmt::format(" {} {:.2f} s ", step, seconds);
-  text += fmt::format("\nmemory  {:.0f} MB at the peak\n", run.peak_memory_MB);
+  text += "\n";
+  if (!run.timings.empty()) {
+    text += "time   ";
+    for (const auto& [step, seconds] : run.timings) text += fmt::format(" {} {:.2f} s ", step, seconds);
+    text += fmt::format("\nmemory  {:.0f} MB at the peak\n", run.peak_memory_MB);
+  }
   if (const std::string cost = cost_sentence(run); !cost.empty()) text += "cost    " + cost + "\n";
   if (run.reuse) text += run.reuse->text();
   return text + "results all of them in figures.csv\n";

@@ -104,6 +104,11 @@ Blocks cost_blocks(const SystemRun& run) {
                         cost_sentence(run) + ".") +
               steps;
   }
+  if (run.timings.empty())
+    return blocks + Paragraph{fmt::format("annulus {}. Parts of the studies were computed by several workers; their "
+                                          "times are not stated.",
+                                          version()),
+                              Paragraph::Tone::muted};
   PageTable times{.head = {"stage", "wall time, s"}, .style = PageTable::Style::numbers};
   for (const auto& [stage, seconds] : run.timings) times.rows.push_back({stage, fmt::format("{:.2f}", seconds)});
   return blocks + times +

@@ -163,7 +163,7 @@ SensitivityResult run_sensitivity(const StudySubject& subject) {
   const auto& scene = subject.scene();
   const auto inputs = sensitivity_inputs(scene);
   auto cases = sensitivity_cases(scene);
-  cases.push_back({{}, "[sensitivity] nominal", ""});
+  cases.push_back(nominal_case_of_sensitivity());
   const auto points = run_cases(subject, cases, "sensitivity");
   const auto column = [&](std::size_t i) {
     std::vector<StudyPoint> list;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numeric>
 
 #include "app/model/run_options.h"
 #include "app/process/progress.h"
@@ -102,49 +103,85 @@ PairedOrder paired_order(const std::vector<VariantSamples>& variants, std::size_
   return order;
 }
 
+/// The samples of all variants as they become known.
+class Samples {
+ public:
+  Samples(const StudySubject& subject, const Sampling& settings) : subject_(subject), settings_(settings) {
+    PointColumns columns{.inputs = {"sample"}, .results = quick_keys(subject.figures())};
+    for (const auto& variable : settings.variables) columns.inputs.push_back(file_name(variable.input));
+    for (std::size_t i = 0; i < subject.variants().size(); ++i) {
+      const auto id = samples_id(subject, i, settings);
+      columns.header = {{"inputs_id", id}};
+      tables_.emplace_back(subject.options().store.get(), "samples", id, columns, subject.figures());
+    }
+  }
+
+  /// Samples numbered from 0. Saved now and then, and at the end.
+  void compute(const std::vector<int>& numbers, TaskProgress& progress) {
+    const std::size_t variants = tables_.size();
+    for_each_task(numbers.size() * variants, subject_.options().threads, [&](std::size_t task) {
+      // All variants of a sample first: an interrupted run has paired samples.
+      const std::size_t variant = task % variants;
+      const int sample = numbers[task / variants];
+      // A combination of draws that makes no stage is a failure too.
+      const auto respond = [&] {
+        const auto drawn = sample_case(settings_.variables, settings_.seed, sample);
+        return subject_.model(drawn, variant)->answer(Answer::without_motion);
+      };
+      (void)tables_[variant].point(drawn(sample), [&] { return attempted(respond); });
+      progress.done();
+    });
+    for (auto& table : tables_) table.save();
+  }
+
+  /// The samples of a variant, when all are computed.
+  PointTable& of(std::size_t variant) {
+    std::vector<std::vector<double>> inputs;
+    for (int sample = 0; sample < settings_.samples; ++sample) inputs.push_back(drawn(sample));
+    tables_[variant].restrict_to(inputs);
+    return tables_[variant];
+  }
+
+ private:
+  /// Number of the sample from 1, and what is drawn for it.
+  [[nodiscard]] std::vector<double> drawn(int sample) const {
+    std::vector<double> list(1, sample + 1);
+    for (const auto& variable : settings_.variables) list.push_back(draw(variable, settings_.seed, sample));
+    return list;
+  }
+
+  const StudySubject& subject_;
+  const Sampling& settings_;
+  std::deque<PointTable> tables_;
+};
+
 }  // namespace
+
+void compute_samples(const StudySubject& subject, const Sampling& settings, const std::vector<int>& numbers) {
+  TaskProgress progress("Monte Carlo", numbers.size() * subject.variants().size());
+  Samples(subject, settings).compute(numbers, progress);
+  progress.finish(fmt::format("{} samples", numbers.size()));
+}
 
 MonteCarloResult run_monte_carlo(const StudySubject& subject, const Sampling& settings) {
   const auto& variables = settings.variables;
   const auto& figures = subject.figures();
   const auto names = subject.variants();
-  PointColumns columns{.inputs = {"sample"}, .results = quick_keys(figures)};
-  for (const auto& variable : variables) columns.inputs.push_back(file_name(variable.input));
   const auto& options = subject.options();
-  std::deque<PointTable> tables;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto id = samples_id(subject, i, settings);
-    columns.header = {{"inputs_id", id}};
-    tables.emplace_back(options.store.get(), "samples", id, columns, figures);
-  }
-  std::vector<std::vector<double>> inputs;
-  for (int sample = 0; sample < settings.samples; ++sample) {
-    auto& drawn = inputs.emplace_back(1, sample + 1);
-    for (const auto& variable : variables) drawn.push_back(draw(variable, settings.seed, sample));
-  }
-  const auto tasks = inputs.size() * names.size();
-  TaskProgress progress("Monte Carlo", tasks);
-  for_each_task(tasks, options.threads, [&](std::size_t task) {
-    // All variants of a sample first: an interrupted run has paired samples.
-    const std::size_t variant = task % names.size(), sample = task / names.size();
-    // A combination of draws that makes no stage is a failure too.
-    const auto respond = [&] {
-      const auto drawn = sample_case(variables, settings.seed, static_cast<int>(sample));
-      return subject.model(drawn, variant)->answer(Answer::without_motion);
-    };
-    (void)tables[variant].point(inputs[sample], [&] { return attempted(respond); });
-    progress.done();
-  });
+  Samples samples(subject, settings);
+  TaskProgress progress("Monte Carlo", static_cast<std::size_t>(settings.samples) * names.size());
+  std::vector<int> all(static_cast<std::size_t>(settings.samples));
+  std::iota(all.begin(), all.end(), 0);
+  samples.compute(all, progress);
 
   MonteCarloResult result{.samples = settings.samples, .seed = settings.seed, .by_default = settings.by_default};
   for (const auto& variable : variables) result.inputs.push_back(variable.input);
   int failures = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     VariantSamples variant;
-    tables[i].save();
-    tables[i].restrict_to(inputs);
-    count_reuse(options, study_responses, tables[i].reused(), settings.samples - tables[i].reused());
-    variant.samples = samples_table(tables[i]);
+    const auto& table = samples.of(i);
+    count_reuse(options, study_responses, table.reused(), settings.samples - table.reused());
+    variant.samples = samples_table(table);
     const auto failed = variant.samples.column("failed"), steady = variant.samples.column("steady");
     for (const auto& row : variant.samples.rows) {
       variant.failed += row[failed] != 0 ? 1 : 0;

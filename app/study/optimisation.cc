@@ -174,7 +174,12 @@ dynamics::OptimiseOptions search_options(const OptimiseInput& s, const std::stri
           .mutation = s.mutation};
 }
 
-OptimiseRun search(const StudySubject& subject, const DesignObjective& objective, const std::string& optimiser,
+struct FoundSearch {
+  OptimiseRun run;
+  Csv answers;  ///< of the model
+};
+
+FoundSearch search(const StudySubject& subject, const DesignObjective& objective, const std::string& optimiser,
                    int repeat, TaskProgress& progress) {
   const auto& scene = subject.scene();
   // The answers depend on the scene, not on how the search goes on; what is cached together is one search's.
@@ -198,19 +203,20 @@ OptimiseRun search(const StudySubject& subject, const DesignObjective& objective
   run.search = dynamics::optimise(search_variables(scene), answer, options, [&](const auto&) { progress.done(); });
   run.reused = points.reused();
   points.save();
-  const auto folder = subject.folder(objective.variant()) / "optimise";
-  std::filesystem::create_directories(folder);
-  points.table().write(folder / fmt::format("{}_{}.csv", optimiser, run.repeat));
   count_reuse(subject.options(), search_evaluations, run.reused,
               static_cast<long>(run.search.evaluations.size()) - run.reused);
-  return run;
+  return {std::move(run), points.table()};
 }
 
-/// The course of every search, and the best design as a scene.
-void write_searches(const StudySubject& subject, const OptimiseResults& result, const DesignObjective& objective) {
+/// The answers and the course of every search, and the best design as a scene.
+void write_searches(const StudySubject& subject, const OptimiseResults& result, const std::vector<Csv>& answers,
+                    const DesignObjective& objective) {
   const double sign = objective.sign();
   const auto folder = subject.folder(result.variant) / "optimise";
-  for (const auto& run : result.runs) {
+  std::filesystem::create_directories(folder);
+  for (std::size_t i = 0; i < result.runs.size(); ++i) {
+    const auto& run = result.runs[i];
+    answers[i].write(folder / fmt::format("{}_{}.csv", run.optimiser, run.repeat));
     Csv csv;
     csv.header = {{"annulus_version", version()}, {"optimiser", run.optimiser}, {"stopped", run.search.stopped}};
     csv.columns = {"generation", "evaluations", "best", "mean", "worst", "failed"};
@@ -234,6 +240,18 @@ const std::vector<std::string>& optimiser_names() {
   return names;
 }
 
+void compute_searches(const StudySubject& subject, const std::vector<std::size_t>& numbers) {
+  const auto& settings = *subject.scene().optimise;
+  const DesignObjective objective(subject);
+  const auto repeats = static_cast<std::size_t>(settings.repeats);
+  TaskProgress progress("optimisation", numbers.size() * static_cast<std::size_t>(settings.generations + 1));
+  for_each_task(numbers.size(), subject.options().threads, [&](std::size_t i) {
+    (void)search(subject, objective, settings.optimisers[numbers[i] / repeats], static_cast<int>(numbers[i] % repeats),
+                 progress);
+  });
+  progress.finish(fmt::format("{} searches", numbers.size()));
+}
+
 OptimiseResults run_optimise(const StudySubject& subject) {
   const auto& scene = subject.scene();
   const auto& settings = *scene.optimise;
@@ -245,10 +263,13 @@ OptimiseResults run_optimise(const StudySubject& subject) {
   const auto repeats = static_cast<std::size_t>(settings.repeats);
   const std::size_t tasks = settings.optimisers.size() * repeats;
   result.runs.resize(tasks);
+  std::vector<Csv> answers(tasks);
   TaskProgress progress("optimisation", tasks * static_cast<std::size_t>(settings.generations + 1));
   for_each_task(tasks, subject.options().threads, [&](std::size_t task) {
-    result.runs[task] =
+    auto found =
         search(subject, objective, settings.optimisers[task / repeats], static_cast<int>(task % repeats), progress);
+    result.runs[task] = std::move(found.run);
+    answers[task] = std::move(found.answers);
   });
   std::vector<dynamics::OptimiseEvaluation> all;
   for (std::size_t i = 0; i < tasks; ++i) {
@@ -266,7 +287,7 @@ OptimiseResults run_optimise(const StudySubject& subject) {
   for (const auto& run : result.runs)
     result.evaluations_to_best.push_back(dynamics::evaluations_to_reach(
         run.search.evaluations, best, std::max(result.range.least_meaning, 0.01 * gain)));
-  write_searches(subject, result, objective);
+  write_searches(subject, result, answers, objective);
   progress.finish(fmt::format("{} evaluations, best {}", all.size(), to_text(result.best.objective, 6)));
   return result;
 }

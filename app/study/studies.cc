@@ -101,6 +101,14 @@ void check_transients(const Scene& scene) {
           "{}: transient.time_s: the course has {:.3g} mesh cycles, a standstill counted as {:g} of the "
           "speed; {:g} are possible. Use shorter times, as slower changes than these leave the motion steady",
           place_text(scene, "transient.time_s", i), cycles, dynamics::TransientOptions::slowest, most));
+    try {
+      const auto& input = scene.transients[i];
+      (void)dynamics::Pacing(rough->system, input.course(), rough->turning.dof, rough->turning.velocity,
+                             input.accelerated_by);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: [[transient]] '{}': {}", place_text(scene, "transient.time_s", i),
+                                   scene.transients[i].name, error.what()));
+    }
   }
 }
 

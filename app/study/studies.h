@@ -22,6 +22,13 @@ void check_studies(const Scene& scene);
 /// As in the scene: "genetic", "cma_es", "differential_evolution".
 [[nodiscard]] const std::vector<std::string>& optimiser_names();
 
+// Parts of studies, whose results stay in the store of the subject's options.
+/// Samples by their numbers from 0.
+void compute_samples(const StudySubject& subject, const Sampling& sampling, const std::vector<int>& numbers);
+[[nodiscard]] TransientResult followed_transient(const StudySubject& subject, std::size_t transient);
+/// Searches by their numbers: optimiser x repeats, repeats fastest.
+void compute_searches(const StudySubject& subject, const std::vector<std::size_t>& numbers);
+
 // The studies one by one.
 [[nodiscard]] SweepResult run_sweep(const StudySubject& subject, std::size_t sweep);
 [[nodiscard]] GridResult run_grid(const StudySubject& subject, std::size_t grid);

@@ -189,16 +189,23 @@ PointTable::PointTable(const ResultStore* store, const char* kind, std::string i
 }
 
 void PointTable::read(const std::vector<FigureSpec>& specs) {
-  const auto cached = store_ ? store_->find(kind_, id_) : std::nullopt;
-  if (!cached) return;
-  const Csv csv = Csv::parse(*cached, kind_);
+  if (!store_) return;
+  for (const auto& cached : store_->find_all(kind_, id_)) add(Csv::parse(cached, kind_), specs);
+}
+
+void PointTable::add(const Csv& csv, const std::vector<FigureSpec>& specs) {
   const std::map<std::string, std::string> failures(csv.header.begin(), csv.header.end());
   const auto n = columns_.inputs.size();
+  std::size_t number = 0;
   for (const auto& row : csv.rows) {
-    const auto& x = order_.emplace_back(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(n));
-    auto& point = points_[x];
+    ++number;
+    const std::vector<double> x(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(n));
+    const auto [entry, is_new] = points_.emplace(x, StudyPoint{});
+    if (!is_new) continue;  // several workers had it
+    order_.push_back(x);
+    auto& point = entry->second;
     if (row[n] != 0) {
-      point.failure = failures.at(failure_line(order_.size()));
+      point.failure = failures.at(failure_line(number));
       continue;
     }
     point.figures = FigureRow(specs);

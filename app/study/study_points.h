@@ -53,7 +53,8 @@ struct PointColumns {
 };
 
 /// Points by the values of their inputs, which are compared to the last bit, cached together as they come: what was
-/// interrupted is repeated with the answers that were there already. Any number of threads at once.
+/// interrupted is repeated with the answers that were there already. Workers cache a table each, which are read as one.
+/// Any number of threads at once.
 class PointTable {
  public:
   /// Reads what an earlier run with this identity cached. `store` may be null.
@@ -70,6 +71,7 @@ class PointTable {
 
  private:
   void read(const std::vector<FigureSpec>& specs);
+  void add(const Csv& csv, const std::vector<FigureSpec>& specs);
   void save_locked();
 
   const ResultStore* store_;

@@ -108,7 +108,7 @@ std::vector<std::string> TransientResult::warnings(std::size_t variant) const {
   return list;
 }
 
-TransientResult run_transient(const StudySubject& subject, std::size_t number) {
+TransientResult followed_transient(const StudySubject& subject, std::size_t number) {
   const auto& input = subject.scene().transients.at(number);
   TransientResult result{input, std::vector<VariantCourse>(subject.variants().size())};
   for_each_task(result.variants.size(), subject.options().threads, [&](std::size_t variant) {
@@ -125,6 +125,12 @@ TransientResult run_transient(const StudySubject& subject, std::size_t number) {
       course.failure = error.what();
     }
   });
+  return result;
+}
+
+TransientResult run_transient(const StudySubject& subject, std::size_t number) {
+  auto result = followed_transient(subject, number);
+  const auto& input = result.input;
   for (std::size_t variant = 0; variant < result.variants.size(); ++variant) {
     const auto& course = result.variants[variant];
     const auto name = fmt::format("[[transient]] '{}'{}", input.name, ring_words(subject, variant));

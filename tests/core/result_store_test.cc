@@ -1,6 +1,9 @@
 #include "core/result_store.h"
 
+#include <algorithm>
+#include <atomic>
 #include <boost/test/unit_test.hpp>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -8,6 +11,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/file_lock.h"
 #include "core/file_set.h"
 #include "core/files.h"
 #include "core/log.h"
@@ -179,6 +183,42 @@ BOOST_AUTO_TEST_CASE(sets_of_files) {
   std::filesystem::last_write_time(file, before);
   write_files(files, folder.path());
   BOOST_TEST((std::filesystem::last_write_time(file) == before));
+}
+
+BOOST_AUTO_TEST_CASE(it_looks_in_other_folders_and_leaves_them_alone) {
+  const StoreFolder folder("others");
+  const auto own = folder.path() / "own", first = folder.path() / "first", second = folder.path() / "second";
+  ResultStore(first, "program").keep("word", "a", "of the first");
+  ResultStore(first, "program").keep("word", "b", "b of the first");
+  ResultStore(second, "program").keep("word", "a", "of the second");
+  const ResultStore store(own, "program", ResultStore::usual_most_bytes, {first, second});
+  BOOST_TEST((store.find("word", "a") == "of the first"));
+  BOOST_TEST((store.find_all("word", "a") == std::vector<std::string>{"of the first", "of the second"}));
+  store.keep("word", "a", "own");
+  BOOST_TEST((store.find("word", "a") == "own"));
+  BOOST_TEST((store.find_all("word", "a") == std::vector<std::string>{"own", "of the first", "of the second"}));
+  BOOST_TEST((store.find("word", "b") == "b of the first"));
+  BOOST_TEST(store.find_all("word", "c").empty());
+  BOOST_TEST((ResultStore(first, "program").find("word", "a") == "of the first"));
+  BOOST_TEST(!ResultStore(own, "program").find("word", "b"));
+}
+
+BOOST_AUTO_TEST_CASE(a_lock_lets_in_one_at_a_time) {
+  const StoreFolder folder("lock");
+  const auto file = folder.path() / "lock";
+  std::atomic<int> inside{0}, most{0};
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      const FileLock lock(file);
+      const int now = ++inside;
+      most = std::max(most.load(), now);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      --inside;
+    });
+  for (auto& thread : threads) thread.join();
+  BOOST_TEST(most == 1);
+  BOOST_CHECK_THROW(FileLock(folder.path() / "none" / "lock"), FileError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

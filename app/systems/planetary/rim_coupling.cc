@@ -104,8 +104,9 @@ void save(const SolvedCoupling& solved, const std::string& id, const std::filesy
   coupling.provenance.insert(
       coupling.provenance.end(),
       {{"coupling_error_m_per_N", fmt::format("{:.17g}", solved.compliance_error)},
-       {"mode_frequency_error_relative", fmt::format("{:.17g}", solved.frequency_error_relative)},
-       {"coupling_seconds", fmt::format("{:.3f}", solved.seconds)}});
+       {"mode_frequency_error_relative", fmt::format("{:.17g}", solved.frequency_error_relative)}});
+  if (std::isfinite(solved.seconds))
+    coupling.provenance.emplace_back("coupling_seconds", fmt::format("{:.3f}", solved.seconds));
   coupling.write_csv(folder / "ring_coupling.csv", folder / "ring_modes.csv");
 }
 
@@ -197,6 +198,7 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
   };
   const auto id = coupling_id(scene, geometry, model, ring);
   auto [result, reused] = cached_value(options.store.get(), cached_couplings, id, solve);
+  if (options.times == Times::left_out) result.seconds = not_known;
   save(result, id, folder);
   result.teeth = {};
   result.mesh_compliance = mesh_compliance;

@@ -23,10 +23,8 @@ Json mesh_json_of(const MeshResult& mesh) {
 }
 
 Json vibration_json(const TwoKVVibration& v) {
-  Json json = {{"first_frequency_Hz", v.first_frequency()},
-               {"frequencies_Hz", Json::array()},
-               {"modes", Json::array()},
-               {"seconds_per_crank_angle", v.seconds_per_position}};
+  Json json = {
+      {"first_frequency_Hz", v.first_frequency()}, {"frequencies_Hz", Json::array()}, {"modes", Json::array()}};
   for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
     json["frequencies_Hz"].push_back(v.modes.modes[m].frequency);
     const auto row = v.over_crank.frequency.row(static_cast<Eigen::Index>(m));

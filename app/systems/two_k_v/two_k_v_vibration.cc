@@ -8,7 +8,6 @@
 #include "app/results/content_id.h"
 #include "core/csv.h"
 #include "core/errors.h"
-#include "core/stopwatch.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -71,10 +70,8 @@ TwoKVVibration vibration_of(const dynamics::TwoKVStage& stage, double arc_cleara
   v.energy = dynamics::modal_energy(stage, v.modes);
   const auto grouped = dynamics::by_group(v.energy);
   for (Eigen::Index m = 0; m < grouped.strain.cols(); ++m) v.names.push_back(dynamics::mode_name(grouped, m));
-  const Stopwatch watch;
   const int positions = dynamics::crank_positions(stage);
   v.over_crank = dynamics::modes_over_crank(stage, positions);
-  v.seconds_per_position = watch.seconds() / positions;
   v.torsion = dynamics::torsional_stiffness(stage, positions);
   v.estimate = dynamics::one_dof(stage);
   v.lost = dynamics::lost_motion(stage, v.torsion.mean(), arc_clearance);

@@ -35,7 +35,6 @@ struct TwoKVVibration {
   dynamics::LostMotion lost;
   std::vector<double> targets;         ///< published first frequencies, Hz
   std::vector<FrequencyInput> inputs;  ///< largest sensitivity first
-  double seconds_per_position = 0;     ///< wall time of all modes of one crank angle
 
   [[nodiscard]] double first_frequency() const { return dynamics::first_frequency(modes); }  ///< Hz, above zero
 };

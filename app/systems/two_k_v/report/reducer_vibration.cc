@@ -179,9 +179,9 @@ Section frequencies_section(const TwoKVResult& result) {
   if (!result.own.vibration) return section;
   const auto& v = *result.own.vibration;
   section.blocks =
-      paragraph(fmt::format("Undamped natural frequencies without rotation. The table is for the mean mesh stiffness "
-                            "and the crank angle of the scene. All modes of one crank angle are computed in {:.0f} µs.",
-                            1e6 * v.seconds_per_position)) +
+      paragraph(
+          "Undamped natural frequencies without rotation. The table is for the mean mesh stiffness and the crank angle "
+          "of the scene.") +
       frequency_table(result);
   for (const auto& [name, shown] : shown_cases(result)) section.blocks += over_crank_plots(name, *shown->vibration);
   section.blocks += shape_pictures(v) + shapes_over_crank(v);

@@ -1,0 +1,287 @@
+#include "app/run/divided_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "app/model/gear_system.h"
+#include "app/model/system_run.h"
+#include "app/plan/cost_plan.h"
+#include "app/results/content_id.h"
+#include "app/results/program_identity.h"
+#include "app/results/result_folder.h"
+#include "app/run/finished_run.h"
+#include "app/scene/scene_files.h"
+#include "app/study/study_parts.h"
+#include "core/csv.h"
+#include "core/errors.h"
+#include "core/file_lock.h"
+#include "core/files.h"
+#include "core/result_store.h"
+
+namespace annulus::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *scene_name = "scene.toml", *points_name = "points.csv", *done_kind = "parts";
+constexpr std::uintmax_t without_limit = UINTMAX_MAX;
+
+fs::path packs_of(const fs::path& folder) { return folder / "packs"; }
+
+/// The packs of all workers, sorted; without `but`.
+std::vector<fs::path> packs(const fs::path& folder, const fs::path& but = {}) {
+  std::vector<fs::path> list;
+  std::error_code none;
+  for (fs::directory_iterator pack(packs_of(folder), none), end; !none && pack != end; pack.increment(none))
+    if (pack->is_directory() && pack->path() != but) list.push_back(pack->path());
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+Scene planned_scene(const fs::path& folder) {
+  if (!fs::exists(folder / scene_name) || !fs::exists(folder / points_name))
+    throw InputError(fmt::format("{}: holds no planned study; make one with: annulus study plan SCENE -o {}",
+                                 folder.string(), folder.string()));
+  return read_scene(folder / scene_name);
+}
+
+/// Names of parts: those that a worker has computed stand in its pack, one per line.
+std::string name_of(const StudyPart& part) { return part.study + ": " + part.what; }
+
+std::set<std::string> lines_of(const std::vector<std::string>& texts) {
+  std::set<std::string> lines;
+  for (const auto& text : texts) {
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.insert(line);
+  }
+  return lines;
+}
+
+std::string id_of(const Scene& scene) { return run_id(scene, {}); }
+
+/// A line per part.
+std::string points_csv(const std::vector<StudyPart>& parts, const std::vector<std::vector<std::size_t>>& by_worker) {
+  std::vector<std::size_t> worker(parts.size());
+  for (std::size_t i = 0; i < by_worker.size(); ++i)
+    for (const std::size_t place : by_worker[i]) worker[place] = i + 1;
+  std::string text =
+      fmt::format("# annulus_version: {}\npart,predicted_s,shard_of_{},study,what\n", version(), by_worker.size());
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += fmt::format("{},{:.6g},{},{},{}\n", i + 1, parts[i].seconds, worker[i], csv_cell(parts[i].study),
+                        csv_cell(parts[i].what));
+  return text;
+}
+
+std::vector<double> seconds_of(const std::vector<StudyPart>& parts) {
+  std::vector<double> list;
+  for (const auto& part : parts) list.push_back(std::isfinite(part.seconds) ? part.seconds : 0.0);
+  return list;
+}
+
+/// Files of the scene, which go along with it.
+std::vector<std::string> files_of(const Scene& scene) {
+  auto files = input_files(scene);
+  if (scene.reference) files.push_back(*scene.reference);
+  for (const auto& name : files)
+    if (fs::path(name).is_relative() && fs::path(name).lexically_normal().string().starts_with(".."))
+      throw InputError(
+          fmt::format("{}: names {}, which lies outside its folder; a study on many machines takes the "
+                      "files with it: put it beside the scene or give its whole path",
+                      scene.file.string(), name));
+  return files;
+}
+
+/// For a shell.
+std::string quoted(const fs::path& path) {
+  std::string text = "'";
+  for (const char c : path.string()) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string parallel_script(int shards) {
+  return fmt::format(R"sh(#!/bin/sh
+# All parts of the study on this machine, as many workers at once as it has cores (JOBS=2: two), then the results.
+cd "$(dirname "$0")" || exit 1
+parallel --jobs "${{JOBS:-100%}}" "${{ANNULUS:-annulus}}" study run . --shard {{}}/{0} --threads 1 ::: $(seq {0}) &&
+  "${{ANNULUS:-annulus}}" study collect .
+)sh",
+                     shards);
+}
+
+std::string slurm_script(const fs::path& folder, int shards, double seconds, double memory_MB) {
+  constexpr double room = 3, least_minutes = 10;
+  const double minutes = std::ceil(std::max(least_minutes, std::isfinite(seconds) ? room * seconds / 60 : 0.0));
+  std::string memory;
+  if (std::isfinite(memory_MB)) memory = fmt::format("#SBATCH --mem={:.0f}M\n", std::ceil(1.5 * memory_MB) + 200);
+  return fmt::format(R"sh(#!/bin/bash
+# A worker per task; when all have ended: annulus study collect FOLDER
+#SBATCH --job-name=annulus
+#SBATCH --array=1-{0}
+#SBATCH --cpus-per-task=1
+#SBATCH --time={1:.0f}
+#SBATCH --output=/dev/null
+{2}cd {3} || exit 1
+exec "${{ANNULUS:-annulus}}" study run . --shard "$SLURM_ARRAY_TASK_ID/{0}" \
+  --threads "${{SLURM_CPUS_PER_TASK:-1}}" > "logs/$SLURM_ARRAY_TASK_ID.log" 2>&1
+)sh",
+                     shards, minutes, memory, quoted(fs::absolute(folder).lexically_normal()));
+}
+
+void write_script(const fs::path& file, const std::string& text) {
+  write_file(file, text);
+  fs::permissions(file, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
+}
+
+/// The scene's own results, which every worker needs: one of them computes, the others wait and find them.
+std::shared_ptr<SystemRun> own_results(const Scene& scene, const fs::path& folder, const RunOptions& given) {
+  RunOptions options = given;
+  options.store = std::make_shared<ResultStore>(folder / "cache", program_identity(), without_limit, packs(folder));
+  const FileLock lock(folder / "cache.lock");
+  auto run = std::make_shared<SystemRun>(scene);
+  run->plan = run->system->plan(options.threads);
+  fs::create_directories(options.out);
+  run->solve_meshes(options);
+  run->respond(options);
+  return run;
+}
+
+}  // namespace
+
+Shard Shard::parse(const std::string& text) {
+  Shard shard;
+  const char* end = text.data() + text.size();
+  const auto [slash, error] = std::from_chars(text.data(), end, shard.number);
+  const bool halved = error == std::errc{} && slash != end && *slash == '/';
+  const auto [rest, other] = halved ? std::from_chars(slash + 1, end, shard.count) : std::from_chars_result{end, error};
+  constexpr int most = 100'000;
+  if (!halved || other != std::errc{} || rest != end || shard.count < 1 || shard.count > most || shard.number < 1 ||
+      shard.number > shard.count)
+    throw InputError(
+        fmt::format("--shard {}: is not the number of a worker and how many there are, as 1/8 to 8/8 (at "
+                    "most {} workers)",
+                    text, most));
+  return shard;
+}
+
+std::string plan_study(const Scene& scene, const fs::path& folder, int workers) {
+  const auto parts = study_parts(scene);
+  if (parts.empty())
+    throw InputError(
+        fmt::format("{}: has no studies to divide: no [[sweep]], [[grid]], [load_spectrum], [[transient]], "
+                    "[monte_carlo], [sensitivity] or [optimise]",
+                    scene.file.string()));
+  const auto files = files_of(scene);
+  // More workers than parts would have nothing to do.
+  const int shards = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(workers), parts.size()));
+  const auto seconds = seconds_of(parts);
+  const auto by_worker = shares(seconds, shards);
+  double all = 0, longest = 0;
+  for (const auto& share : by_worker) {
+    double sum = 0;
+    for (const std::size_t place : share) sum += seconds[place];
+    all += sum;
+    longest = std::max(longest, sum);
+  }
+  const auto system = make_system(scene);
+  auto own = system->plan(1).cost;
+  std::erase_if(own.steps, [](const CostStep& step) { return step.kind == CostKind::studies; });
+  const double first = own.seconds(), pace = own.pace;
+
+  ResultFolder guard(folder, {scene.file, scene.title},
+                     {folder / "cache", folder / "packs", folder / "results", folder / "logs"});
+  guard.check();
+  guard.begin();
+  write_file(folder / scene_name, scene.text);
+  for (const auto& name : files) {
+    if (fs::path(name).is_absolute()) continue;
+    fs::create_directories((folder / name).parent_path());
+    write_file(folder / name, read_file(scene.file.parent_path() / name));
+  }
+  write_file(folder / points_name, points_csv(parts, by_worker));
+  write_script(folder / "study.sh", parallel_script(shards));
+  write_script(folder / "study.sbatch", slurm_script(folder, shards, first + pace * longest, own.peak_MB()));
+  guard.remove_earlier([](const std::string&) { return true; });
+  fs::create_directories(folder / "logs");
+
+  std::string text = fmt::format("{}: {} parts for {} workers\n", scene.title, parts.size(), shards);
+  std::set<std::string> studies;
+  for (const auto& part : parts)
+    if (studies.insert(part.study).second) {
+      const auto count =
+          std::count_if(parts.begin(), parts.end(), [&](const auto& p) { return p.study == part.study; });
+      text += fmt::format("  {:18} {:6} part{}\n", part.study, count, count == 1 ? "" : "s");
+    }
+  const auto here = folder.string();
+  return text +
+         fmt::format(
+             "predicted  {} for the scene itself, once; {} of processor time for the parts, {} for the longest worker\n"
+             "here       {}/study.sh              with GNU parallel, and collects\n"
+             "cluster    sbatch {}/study.sbatch   then: annulus study collect {}\n"
+             "by hand    annulus study run {} --shard 1/{} ... {}/{}, then: annulus study collect {}\n",
+             duration_text(first), duration_text(pace * all), duration_text(pace * longest), here, here, here, here,
+             shards, shards, shards, here);
+}
+
+std::string run_shard(const fs::path& folder, const Shard& shard, const RunOptions& given) {
+  const auto scene = planned_scene(folder);
+  const auto parts = study_parts(scene);
+  const auto mine = shares(seconds_of(parts), shard.count)[static_cast<std::size_t>(shard.number - 1)];
+  const auto pack = packs_of(folder) / fmt::format("{}_of_{}", shard.number, shard.count);
+  fs::create_directories(pack);
+  auto others = packs(folder, pack);
+  others.push_back(folder / "cache");
+  RunOptions options = given;
+  options.out = pack / "files";
+  options.cache = pack;
+  options = with_reuse(options);
+  options.store = std::make_shared<ResultStore>(pack, program_identity(), without_limit, std::move(others));
+  const auto scene_id = id_of(scene);
+  const auto known = lines_of(options.store->find_all(done_kind, scene_id));
+  std::vector<std::size_t> open;
+  for (const std::size_t place : mine)
+    if (!known.contains(name_of(parts[place]))) open.push_back(place);
+  const auto done = mine.size() - open.size();
+  if (!open.empty()) {
+    const auto run = own_results(scene, folder, options);
+    std::string own = ResultStore(pack, program_identity()).find(done_kind, scene_id).value_or("");
+    compute_parts(StudySubject(*run, options), open, [&](const std::vector<std::size_t>& places) {
+      for (const std::size_t place : places) own += name_of(parts[place]) + "\n";
+      options.store->keep(done_kind, scene_id, own);
+    });
+    fs::remove_all(options.out);
+  }
+  return fmt::format("shard {}/{}: {} parts computed{}\n", shard.number, shard.count, open.size(),
+                     done > 0 ? fmt::format(", {} were done before", done) : "");
+}
+
+Collected collect_study(const fs::path& folder, const RunOptions& given) {
+  Collected collected{planned_scene(folder), given};
+  const auto& scene = collected.scene;
+  auto& options = collected.options;
+  options.out = folder / "results";
+  options.cache = folder / "cache";
+  options.times = Times::left_out;
+  options.store = std::make_shared<ResultStore>(options.cache, program_identity(), without_limit, packs(folder));
+  const auto parts = study_parts(scene);
+  const auto known = lines_of(options.store->find_all(done_kind, id_of(scene)));
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (!known.contains(name_of(parts[i]))) missing.push_back(i);
+  if (!missing.empty()) {
+    const auto& first = parts[missing.front()];
+    throw Error(
+        fmt::format("{}: {} of {} parts are missing, the first one is {}: {}; run its workers again (annulus "
+                    "study run {} --shard 1/1 computes all that is missing)",
+                    folder.string(), missing.size(), parts.size(), first.study, first.what, folder.string()));
+  }
+  return collected;
+}
+
+}  // namespace annulus::app
