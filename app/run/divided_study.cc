@@ -177,6 +177,8 @@ std::string plan_study(const Scene& scene, const fs::path& folder, int workers) 
         fmt::format("{}: has no studies to divide: no [[sweep]], [[grid]], [load_spectrum], [[transient]], "
                     "[monte_carlo], [sensitivity] or [optimise]",
                     scene.file.string()));
+  if (fs::exists(folder / "run.json"))
+    throw InputError(fmt::format("--out {}: holds the results of a run; use another folder", folder.string()));
   const auto files = files_of(scene);
   // More workers than parts would have nothing to do.
   const int shards = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(workers), parts.size()));
@@ -207,7 +209,6 @@ std::string plan_study(const Scene& scene, const fs::path& folder, int workers) 
   write_file(folder / points_name, points_csv(parts, by_worker));
   write_script(folder / "study.sh", parallel_script(shards));
   write_script(folder / "study.sbatch", slurm_script(folder, shards, first + pace * longest, own.peak_MB()));
-  guard.remove_earlier([](const std::string&) { return true; });
   fs::create_directories(folder / "logs");
 
   std::string text = fmt::format("{}: {} parts for {} workers\n", scene.title, parts.size(), shards);

@@ -263,6 +263,11 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_said) {
   const auto shard = test::run_program(study.path(), "study run study --shard 3/2");
   BOOST_TEST(shard.status == 2);
   BOOST_TEST(shard.err.find("--shard 3/2") != std::string::npos, shard.err);
+  fs::create_directories(study.path() / "out");
+  write_file(study.path() / "out/run.json", "{}");
+  const auto taken = test::run_program(study.path(), "study plan scene.toml -o out");
+  BOOST_TEST(taken.status == 2);
+  BOOST_TEST(taken.err.find("holds the results of a run") != std::string::npos, taken.err);
   const auto nothing = test::run_program(study.path(), "study run . --shard 1/1");
   BOOST_TEST(nothing.status == 2);
   BOOST_TEST(nothing.err.find("holds no planned study") != std::string::npos, nothing.err);
