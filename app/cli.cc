@@ -63,12 +63,16 @@ CLI::App* add_command(CLI::App& app, Arguments& arguments, const char* name, con
 
 /// The message about a first word that is not a command; empty when the arguments are wrong in another way.
 std::string unknown_command(const CLI::App& app) {
-  const auto words = app.remaining();
-  if (!app.get_subcommands().empty() || words.empty() || words.front().starts_with('-')) return "";
+  const auto named = app.get_subcommands();
+  const CLI::App& of = named.empty() ? app : *named.front();
+  const auto words = of.remaining();
+  if (of.get_subcommands({}).empty() || !of.get_subcommands().empty() || words.empty() ||
+      words.front().starts_with('-'))
+    return "";
   const std::string& word = words.front();
   std::vector<std::string> commands;
   std::string known;
-  for (const auto* command : app.get_subcommands({})) {
+  for (const auto* command : of.get_subcommands({})) {
     commands.push_back(command->get_name());
     known += (known.empty() ? "" : ", ") + commands.back();
   }

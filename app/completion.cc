@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <vector>
 
 #include "core/errors.h"
@@ -16,16 +17,28 @@ struct Command {
   std::vector<std::pair<std::string, std::string>> options{};  ///< "--threads" and what it does
 };
 
+std::vector<const CLI::App*> parts_of(const CLI::App& command) {
+  return command.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// With those of its parts.
+void add_options(const CLI::App& command, std::vector<std::pair<std::string, std::string>>& options) {
+  const auto add = [&](const std::string& name, const CLI::Option& option) {
+    if (std::none_of(options.begin(), options.end(), [&](const auto& known) { return known.first == name; }))
+      options.emplace_back(name, option.get_description());
+  };
+  for (const auto* option : command.get_options()) {
+    for (const auto& name : option->get_lnames()) add("--" + name, *option);
+    for (const auto& name : option->get_snames()) add("-" + name, *option);
+  }
+  for (const auto* part : parts_of(command)) add_options(*part, options);
+}
+
 std::vector<Command> commands_of(const CLI::App& app) {
   std::vector<Command> list;
-  for (const auto* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
-    Command command{sub->get_name(), sub->get_description()};
-    for (const auto* option : sub->get_options()) {
-      for (const auto& name : option->get_lnames())
-        command.options.emplace_back("--" + name, option->get_description());
-      for (const auto& name : option->get_snames()) command.options.emplace_back("-" + name, option->get_description());
-    }
-    list.push_back(std::move(command));
+  for (const auto* sub : parts_of(app)) {
+    auto& command = list.emplace_back(Command{sub->get_name(), sub->get_description()});
+    add_options(*sub, command.options);
   }
   return list;
 }

@@ -238,11 +238,12 @@ BOOST_AUTO_TEST_CASE(by_gnu_parallel) {
 
 BOOST_AUTO_TEST_CASE(by_slurm) {
   const Planned study("divided_by_slurm", 3);
-  const int status = std::system(fmt::format("cd '{}' && ANNULUS_CACHE= ANNULUS='" ANNULUS_PROGRAM
-                                             "' '" ANNULUS_SOURCE_DIR "/tests/app/one_node_slurm.sh' sbatch --wait "
-                                             "study/study.sbatch >slurm.log 2>&1",
-                                             study.path().string())
-                                     .c_str());
+  const int status =
+      std::system(fmt::format("cd '{}' && ANNULUS_CACHE= ANNULUS='" ANNULUS_PROGRAM "' '" ANNULUS_SOURCE_DIR
+                              "/tests/app/one_node_slurm.sh' timeout 200 sbatch --wait "
+                              "study/study.sbatch >slurm.log 2>&1",
+                              study.path().string())
+                      .c_str());
   constexpr int cannot_start = 77;
   if (WEXITSTATUS(status) == cannot_start) {
     BOOST_TEST_MESSAGE("skipped: " << read_file(study.path() / "slurm.log"));
@@ -271,6 +272,9 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_said) {
   const auto nothing = test::run_program(study.path(), "study run . --shard 1/1");
   BOOST_TEST(nothing.status == 2);
   BOOST_TEST(nothing.err.find("holds no planned study") != std::string::npos, nothing.err);
+  const auto word = test::run_program(study.path(), "study pln scene.toml");
+  BOOST_TEST(word.status == 2);
+  BOOST_TEST(word.err.find("did you mean plan?") != std::string::npos, word.err);
   const auto option = test::run_program(study.path(), "study plan scene.toml -o study --shard 2");
   BOOST_TEST(option.status == 2);
   BOOST_TEST(option.err.find("--shards") != std::string::npos, option.err);

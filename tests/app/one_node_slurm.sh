@@ -6,7 +6,7 @@ set -u
 here=$PWD
 folder=$(mktemp -d /tmp/slurm.XXXXXX) || exit 77 # names of sockets are short
 cd "$folder" || exit 77
-for program in munged slurmctld slurmd sbatch scontrol; do
+for program in munged slurmctld slurmd sbatch srun sinfo; do
   command -v "$program" >/dev/null || PATH=$PATH:/usr/sbin
   command -v "$program" >/dev/null || { echo "no $program" >&2; exit 77; }
 done
@@ -64,4 +64,5 @@ for _ in $(seq 50); do
   sleep 0.2
 done
 sinfo --noheader --format=%t 2>/dev/null | grep -q idle || { tail -5 slurmctld.log slurmd.log >&2; exit 77; }
+timeout 30 srun --ntasks=1 true 2>/dev/null || { echo "no job runs" >&2; exit 77; }
 cd "$here" && "$@"
