@@ -81,13 +81,8 @@ std::string unknown_command(const CLI::App& app) {
                      near.empty() ? "" : ", did you mean " + near + "?", known);
 }
 
-/// "run", or of a command in parts "study run".
-std::string name_of(const CLI::App& command) {
-  const auto parts = command.get_subcommands();
-  return parts.empty() ? command.get_name() : command.get_name() + " " + parts.front()->get_name();
-}
-
-std::string whole_name(const CLI::App& command, const CLI::App& app) {
+/// "run", or "study run" of a part of a command.
+std::string name_of(const CLI::App& command, const CLI::App& app) {
   const auto* parent = command.get_parent();
   return parent == &app ? command.get_name() : parent->get_name() + " " + command.get_name();
 }
@@ -109,7 +104,7 @@ std::string unknown_option(const CLI::App& app, int argc, char** argv) {
       for (const auto& other : option->get_lnames()) known.push_back("--" + other);
     const auto near = nearest(name, known);
     return fmt::format("{}: {} has no such option{}; the options are {}", name,
-                       command == &app ? "annulus" : "annulus " + whole_name(*command, app),
+                       command == &app ? "annulus" : "annulus " + name_of(*command, app),
                        near.empty() ? "" : ", did you mean " + near + "?", fmt::join(known, ", "));
   }
   return "";
@@ -375,7 +370,9 @@ int parse_and_run(int argc, char** argv) {
       {"explain", [&] { explain_command(arguments); }},
       {"completion", [&] { fmt::print("{}", completion_script(app, arguments.shell)); }}};
   try {
-    const auto command = name_of(*app.get_subcommands().front());
+    const auto* named = app.get_subcommands().front();
+    if (const auto parts = named->get_subcommands(); !parts.empty()) named = parts.front();
+    const auto command = name_of(*named, app);
     check_system_limits(command, arguments);
     commands.at(command)();
     // What stands in the buffer is written only now.

@@ -281,12 +281,9 @@ void study_plan_command(const Arguments& arguments) {
 }
 
 void study_run_command(const Arguments& arguments) {
-  const RunOptions options{.threads = arguments.threads, .command = arguments.command_line};
+  const RunOptions options{.cache = arguments.folder, .threads = arguments.threads, .command = arguments.command_line};
   const auto shard = Shard::parse(arguments.shard);
-  HeldLimits limits{.stored = arguments.folder};
-  if (arguments.max_memory) limits.memory_MB = parse_memory(*arguments.max_memory);
-  if (arguments.max_time) limits.seconds = parse_duration(*arguments.max_time, "--max-time");
-  hold_limits(limits);
+  hold(arguments, options);
   fmt::print("{}", run_shard(arguments.folder, shard, options));
 }
 

@@ -125,10 +125,13 @@ std::optional<std::string> ResultStore::find(const std::string& kind, std::strin
   return content;
 }
 
-std::vector<std::string> ResultStore::find_all(const std::string& kind, std::string_view inputs) const {
+std::optional<std::string> ResultStore::find_own(const std::string& kind, std::string_view inputs) const {
+  return content_in(folder_, name_of(kind, inputs));
+}
+
+std::vector<std::string> ResultStore::find_others(const std::string& kind, std::string_view inputs) const {
   const auto name = name_of(kind, inputs);
   std::vector<std::string> list;
-  if (auto content = content_in(folder_, name)) list.push_back(std::move(*content));
   for (const auto& other : others_)
     if (auto content = content_in(other, name)) list.push_back(std::move(*content));
   return list;

@@ -28,8 +28,9 @@ class ResultStore {
   /// The cached content of this kind (a word, the name of a folder) that depends on `inputs` (any bytes); nothing where
   /// there is none. The own folder comes first, then the others in their order.
   [[nodiscard]] std::optional<std::string> find(const std::string& kind, std::string_view inputs) const;
-  /// That of every folder that has one: parts of one result, of several workers.
-  [[nodiscard]] std::vector<std::string> find_all(const std::string& kind, std::string_view inputs) const;
+  // Where several workers have a part of one result each: the own one, and those of the others.
+  [[nodiscard]] std::optional<std::string> find_own(const std::string& kind, std::string_view inputs) const;
+  [[nodiscard]] std::vector<std::string> find_others(const std::string& kind, std::string_view inputs) const;
 
   enum class Packing { compressed, plain };  ///< plain: for numbers, which do not shrink
   /// Caches the content. One that cannot be written is reported and not cached.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "app/results/program_identity.h"
 #include "app/results/result_folder.h"
 #include "app/run/finished_run.h"
+#include "app/run/study_scripts.h"
 #include "app/scene/scene_files.h"
 #include "app/study/study_parts.h"
 #include "core/csv.h"
@@ -55,16 +57,19 @@ Scene planned_scene(const fs::path& folder) {
 /// Names of parts: those that a worker has computed stand in its pack, one per line.
 std::string name_of(const StudyPart& part) { return part.study + ": " + part.what; }
 
-std::set<std::string> lines_of(const std::vector<std::string>& texts) {
-  std::set<std::string> lines;
+std::string id_of(const Scene& scene) { return run_id(scene, {}); }
+
+/// The names of the parts that any worker has computed.
+std::set<std::string> computed_parts(const ResultStore& store, const std::string& scene_id) {
+  auto texts = store.find_others(done_kind, scene_id);
+  texts.push_back(store.find_own(done_kind, scene_id).value_or(""));
+  std::set<std::string> names;
   for (const auto& text : texts) {
     std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);) lines.insert(line);
+    for (std::string line; std::getline(stream, line);) names.insert(line);
   }
-  return lines;
+  return names;
 }
-
-std::string id_of(const Scene& scene) { return run_id(scene, {}); }
 
 /// A line per part.
 std::string points_csv(const std::vector<StudyPart>& parts, const std::vector<std::vector<std::size_t>>& by_worker) {
@@ -96,42 +101,6 @@ std::vector<std::string> files_of(const Scene& scene) {
                       "files with it: put it beside the scene or give its whole path",
                       scene.file.string(), name));
   return files;
-}
-
-/// For a shell.
-std::string quoted(const fs::path& path) {
-  std::string text = "'";
-  for (const char c : path.string()) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
-std::string parallel_script(int shards) {
-  return fmt::format(R"sh(#!/bin/sh
-# All parts of the study on this machine, as many workers at once as it has cores (JOBS=2: two), then the results.
-cd "$(dirname "$0")" || exit 1
-parallel --jobs "${{JOBS:-100%}}" "${{ANNULUS:-annulus}}" study run . --shard {{}}/{0} --threads 1 ::: $(seq {0}) &&
-  "${{ANNULUS:-annulus}}" study collect .
-)sh",
-                     shards);
-}
-
-std::string slurm_script(const fs::path& folder, int shards, double seconds, double memory_MB) {
-  constexpr double room = 3, least_minutes = 10;
-  const double minutes = std::ceil(std::max(least_minutes, std::isfinite(seconds) ? room * seconds / 60 : 0.0));
-  std::string memory;
-  if (std::isfinite(memory_MB)) memory = fmt::format("#SBATCH --mem={:.0f}M\n", std::ceil(1.5 * memory_MB) + 200);
-  return fmt::format(R"sh(#!/bin/bash
-# A worker per task; when all have ended: annulus study collect FOLDER
-#SBATCH --job-name=annulus
-#SBATCH --array=1-{0}
-#SBATCH --cpus-per-task=1
-#SBATCH --time={1:.0f}
-#SBATCH --output=/dev/null
-{2}cd {3} || exit 1
-exec "${{ANNULUS:-annulus}}" study run . --shard "$SLURM_ARRAY_TASK_ID/{0}" \
-  --threads "${{SLURM_CPUS_PER_TASK:-1}}" > "logs/$SLURM_ARRAY_TASK_ID.log" 2>&1
-)sh",
-                     shards, minutes, memory, quoted(fs::absolute(folder).lexically_normal()));
 }
 
 void write_script(const fs::path& file, const std::string& text) {
@@ -244,14 +213,14 @@ std::string run_shard(const fs::path& folder, const Shard& shard, const RunOptio
   options = with_reuse(options);
   options.store = std::make_shared<ResultStore>(pack, program_identity(), without_limit, std::move(others));
   const auto scene_id = id_of(scene);
-  const auto known = lines_of(options.store->find_all(done_kind, scene_id));
+  const auto known = computed_parts(*options.store, scene_id);
   std::vector<std::size_t> open;
   for (const std::size_t place : mine)
     if (!known.contains(name_of(parts[place]))) open.push_back(place);
   const auto done = mine.size() - open.size();
   if (!open.empty()) {
     const auto run = own_results(scene, folder, options);
-    std::string own = ResultStore(pack, program_identity()).find(done_kind, scene_id).value_or("");
+    std::string own = options.store->find_own(done_kind, scene_id).value_or("");
     compute_parts(StudySubject(*run, options), open, [&](const std::vector<std::size_t>& places) {
       for (const std::size_t place : places) own += name_of(parts[place]) + "\n";
       options.store->keep(done_kind, scene_id, own);
@@ -271,7 +240,7 @@ Collected collect_study(const fs::path& folder, const RunOptions& given) {
   options.times = Times::left_out;
   options.store = std::make_shared<ResultStore>(options.cache, program_identity(), without_limit, packs(folder));
   const auto parts = study_parts(scene);
-  const auto known = lines_of(options.store->find_all(done_kind, id_of(scene)));
+  const auto known = computed_parts(*options.store, id_of(scene));
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < parts.size(); ++i)
     if (!known.contains(name_of(parts[i]))) missing.push_back(i);

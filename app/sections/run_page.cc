@@ -105,8 +105,8 @@ Blocks cost_blocks(const SystemRun& run) {
               steps;
   }
   if (run.timings.empty())
-    return blocks + Paragraph{fmt::format("annulus {}. Parts of the studies were computed by several workers; their "
-                                          "times are not stated.",
+    return blocks + Paragraph{fmt::format("annulus {}. Workers computed the parts of the studies; their times are not "
+                                          "stated.",
                                           version()),
                               Paragraph::Tone::muted};
   PageTable times{.head = {"stage", "wall time, s"}, .style = PageTable::Style::numbers};

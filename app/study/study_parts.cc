@@ -10,6 +10,7 @@
 #include "app/study/directed_sweeps.h"
 #include "app/study/studies.h"
 #include "app/study/study_points.h"
+#include "core/errors.h"
 
 namespace annulus::app {
 
@@ -29,7 +30,12 @@ DividedStudy divided_cases(const std::string& name, const std::vector<StudyCase>
                        for (const std::size_t i : parts) mine.push_back(cases[i]);
                        (void)run_cases(subject, mine, name);
                      }};
-  for (const auto& study_case : cases) study.parts.push_back(study_case.where);
+  // Most cases name their study first: "[[sweep]] 1, value 7 of 20 (stage.power_kW = 900)".
+  for (const auto& study_case : cases) {
+    const auto& where = study_case.where;
+    const auto begin = where.starts_with(name) ? where.find_first_not_of(", ", name.size()) : 0;
+    study.parts.push_back(begin < where.size() ? where.substr(begin) : where);
+  }
   return study;
 }
 
@@ -108,9 +114,8 @@ std::vector<StudyPart> study_parts(const Scene& scene) {
   for (const auto& study : divided_studies(scene)) {
     const auto plan =
         std::find_if(plans.begin(), plans.end(), [&](const StudyPlan& p) { return p.name == study.name; });
-    double seconds = 0;
-    if (plan != plans.end())
-      seconds = plan->seconds + (plan->tables > 0 ? plan->tables * processor_seconds(plan->table) : 0.0);
+    require(plan != plans.end(), study.name + " has no plan");
+    const double seconds = plan->seconds + (plan->tables > 0 ? plan->tables * processor_seconds(plan->table) : 0.0);
     for (const auto& part : study.parts)
       list.push_back({study.name, part, seconds / static_cast<double>(study.parts.size())});
   }

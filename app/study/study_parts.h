@@ -12,15 +12,15 @@ namespace annulus::app {
 
 struct StudyPart {
   std::string study;   ///< "[[sweep]] 1", as in the scene
-  std::string what;    ///< "stage.power_kW = 900", "samples 1 to 100"
+  std::string what;    ///< "value 7 of 20 (stage.power_kW = 900)", "samples 1 to 100"
   double seconds = 0;  ///< rough processor time
 };
 
 /// The parts of all studies of a scene, in a fixed order. Computes nothing.
 [[nodiscard]] std::vector<StudyPart> study_parts(const Scene& scene);
 
-/// Computes those parts, by their places in study_parts(), study after study; `done` is told the places of a study
-/// when their results are in the store. Failed points are results. Throws what a run of the studies throws.
+/// Computes those parts, by their places in study_parts(), study after study; `done` gets the places of a study as
+/// soon as their results are in the store. Failed points are results. Throws what a run of the studies throws.
 void compute_parts(const StudySubject& subject, const std::vector<std::size_t>& places,
                    const std::function<void(const std::vector<std::size_t>&)>& done);
 

@@ -190,7 +190,9 @@ PointTable::PointTable(const ResultStore* store, const char* kind, std::string i
 
 void PointTable::read(const std::vector<FigureSpec>& specs) {
   if (!store_) return;
-  for (const auto& cached : store_->find_all(kind_, id_)) add(Csv::parse(cached, kind_), specs);
+  if (const auto own = store_->find_own(kind_, id_)) add(Csv::parse(*own, kind_), specs);
+  own_ = order_;
+  for (const auto& others : store_->find_others(kind_, id_)) add(Csv::parse(others, kind_), specs);
 }
 
 void PointTable::add(const Csv& csv, const std::vector<FigureSpec>& specs) {
@@ -224,15 +226,20 @@ const StudyPoint& PointTable::point(const std::vector<double>& inputs, const std
   auto made = make();
   const std::scoped_lock guard(lock_);
   const auto [point, added] = points_.emplace(inputs, std::move(made));
-  if (added) order_.push_back(inputs);
+  if (added) {
+    order_.push_back(inputs);
+    own_.push_back(inputs);
+  }
   changed_ = true;
   if (std::chrono::steady_clock::now() > next_save_) save_locked();
   return point->second;
 }
 
-Csv PointTable::table() const {
+Csv PointTable::table() const { return table_of(order_); }
+
+Csv PointTable::table_of(const std::vector<std::vector<double>>& list) const {
   auto csv = columns_.empty_table();
-  for (const auto& x : order_) columns_.add(csv, csv.rows.size() + 1, x, points_.at(x));
+  for (const auto& x : list) columns_.add(csv, csv.rows.size() + 1, x, points_.at(x));
   return csv;
 }
 
@@ -244,7 +251,7 @@ void PointTable::save() {
 void PointTable::save_locked() {
   if (!changed_ || !store_) return;
   const auto start = std::chrono::steady_clock::now();
-  store_->keep(kind_, id_, table().text());
+  store_->keep(kind_, id_, table_of(own_).text());
   const auto end = std::chrono::steady_clock::now();
   next_save_ = end + std::max<std::chrono::steady_clock::duration>(save_interval, least_work * (end - start));
   changed_ = false;

@@ -53,8 +53,8 @@ struct PointColumns {
 };
 
 /// Points by the values of their inputs, which are compared to the last bit, cached together as they come: what was
-/// interrupted is repeated with the answers that were there already. Workers cache a table each, which are read as one.
-/// Any number of threads at once.
+/// interrupted is repeated with the answers that were there already. Of several workers each caches its own points, and
+/// reads those of all. Any number of threads at once.
 class PointTable {
  public:
   /// Reads what an earlier run with this identity cached. `store` may be null.
@@ -73,12 +73,14 @@ class PointTable {
   void read(const std::vector<FigureSpec>& specs);
   void add(const Csv& csv, const std::vector<FigureSpec>& specs);
   void save_locked();
+  [[nodiscard]] Csv table_of(const std::vector<std::vector<double>>& list) const;
 
   const ResultStore* store_;
   const char* kind_;
   std::string id_;
   PointColumns columns_;
   std::vector<std::vector<double>> order_{};  ///< as they came
+  std::vector<std::vector<double>> own_{};    ///< those cached here
   std::map<std::vector<double>, StudyPoint> points_{};
   int reused_ = 0;
   bool changed_ = false;

@@ -38,8 +38,8 @@ std::vector<Eigen::Index> leading(const LumpedSystem& system, const std::vector<
 
 /// Where a start leads to.
 struct Followed {
-  Block last;
-  int period = 0;  ///< 0: irregular
+  std::vector<Block> lately;  ///< the last one, or of an irregular motion the last third; empty: none was integrated
+  int period = 0;             ///< 0: irregular
   bool decided = false;
   SystemState state;
 };
@@ -66,34 +66,48 @@ class Follower {
     ResponseRun run(system_, problem_.mesh_frequency, force_samples, integrator_);
     run.start_from(start.q, start.v);
     Followed result;
+    std::vector<Block> blocks;
     std::vector<double> changes;
-    Block before;
-    for (int i = 0; i < most_blocks && !result.decided; ++i) {
-      Block now = advanced(run);
-      if (i > 0) changes.push_back(difference(now, result.last, 0));
-      // A motion may pass close to an unstable one: one agreement is none.
-      result.decided = changes.size() > 2 && settled(changes, 0, scale(now)) && settled(changes, 1, scale(now));
-      before = std::exchange(result.last, std::move(now));
+    // Vibrations that have neither settled nor become irregular get as much time again.
+    for (int round = 0; round < rounds && !result.decided; ++round) {
+      bool repeats = false;
+      for (int i = 0; i < most_blocks && !repeats; ++i) {
+        blocks.push_back(advanced(run));
+        const auto& now = blocks.back();
+        if (blocks.size() > 1) changes.push_back(difference(now, blocks[blocks.size() - 2], 0));
+        // A motion may pass close to an unstable one: one agreement is none.
+        repeats = changes.size() > 2 && settled(changes, 0, scale(now)) && settled(changes, 1, scale(now));
+      }
+      result.state = run.state();
+      result.state.time = 0;
+      result.period = repeats ? period_of(blocks.back()) : unsettled_period(blocks[blocks.size() - 2], blocks.back());
+      result.decided = result.period > 0 || (keeps_changing(changes, scale(blocks.back())) && parts(result.state));
     }
-    result.state = run.state();
-    result.state.time = 0;
-    result.period = result.decided ? period_of(result.last) : rare_period(before, result.last);
-    if (result.period == 0) result.decided = keeps_changing(changes, scale(result.last)) && parts(result.state);
-    if (result.period > 0) result.decided = true;
+    // Irregular motions show their largest forces now and then.
+    const auto shown = result.period > 0 ? 1 : static_cast<std::ptrdiff_t>(blocks.size() / 3);
+    result.lately.assign(blocks.end() - shown, blocks.end());
     return result;
   }
 
   [[nodiscard]] double largest_force(const Followed& f) const {
-    return std::max(f.last.high(leading_, Eigen::all).maxCoeff(), -f.last.low(leading_, Eigen::all).minCoeff());
+    double largest = 0;
+    for (const auto& b : f.lately)
+      largest = std::max({largest, b.high(leading_, Eigen::all).maxCoeff(), -b.low(leading_, Eigen::all).minCoeff()});
+    return largest;
   }
-  [[nodiscard]] double contact_loss(const Followed& f) const { return f.last.open(leading_).maxCoeff(); }
+  [[nodiscard]] double contact_loss(const Followed& f) const {
+    double largest = 0;
+    for (const auto& b : f.lately) largest = std::max(largest, b.open(leading_).maxCoeff());
+    return largest;
+  }
 
   /// All irregular motions are one.
   [[nodiscard]] bool same(const Followed& a, const Followed& b) const {
     if (a.period == 0 || b.period == 0) return a.period == b.period;
     constexpr double share = 0.02;
-    const double size = std::max(scale(a.last), scale(b.last));
-    const auto x = features(a.last, size), y = features(b.last, size);
+    const auto &last = a.lately.back(), &other = b.lately.back();
+    const double size = std::max(scale(last), scale(other));
+    const auto x = features(last, size), y = features(other, size);
     for (std::size_t m = 0; m < x.size(); ++m)
       for (std::size_t i = 0; i < 3; ++i)
         if (std::abs(x[m].at(i) - y[m].at(i)) > share) return false;
@@ -101,7 +115,7 @@ class Follower {
   }
 
  private:
-  static constexpr int most_blocks = 24;
+  static constexpr int most_blocks = 24, rounds = 2;
   static constexpr double still = 5e-3;  ///< of the force
 
   [[nodiscard]] double scale(const Block& b) const {
@@ -152,11 +166,12 @@ class Follower {
     return block;
   }
 
-  /// Periods that do not divide twelve, of a motion that has settled to one before the last two blocks; 0: none.
-  [[nodiscard]] int rare_period(const Block& before, const Block& last) const {
+  /// The period of a motion whose last two blocks repeat, though its vibrations have not settled: one that does not
+  /// divide twelve, or one whose small changes do not die out; 0: none.
+  [[nodiscard]] int unsettled_period(const Block& before, const Block& last) const {
     Eigen::MatrixXd forces(2 * last.high.rows(), 2 * block);
     forces << before.high, last.high, before.low, last.low;
-    for (const int period : {5, 7, 8, 9, 10, 11}) {
+    for (int period = 1; period < block; ++period) {
       const Eigen::Index compared = 2 * block - period;
       if ((forces.rightCols(compared) - forces.leftCols(compared)).cwiseAbs().maxCoeff() <= still * scale(last))
         return period;
@@ -216,7 +231,7 @@ StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& pr
     const auto& f = followed[i];
     if (!f.decided) {
       // A steady motion is one, however slowly the rest of its vibrations dies out.
-      const bool known = i == 0 && present.steady && f.last.high.size() > 0;
+      const bool known = i == 0 && present.steady && !f.lately.empty();
       if (i > 0) ++result.found.undecided;
       if (!known) continue;
       followed[i].period = 1;
@@ -230,7 +245,6 @@ StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& pr
     }
     auto& motion = motions[number];
     if (i > 0) ++motion.starts;
-    // Irregular motions show their largest forces now and then.
     if (f.period == 0) {
       motion.largest_force = std::max(motion.largest_force, follower.largest_force(f));
       motion.contact_loss = std::max(motion.contact_loss, follower.contact_loss(f));

@@ -46,12 +46,13 @@ struct StableMotions {
   std::vector<SystemState> states{};  ///< in the order of found.list, at time 0
 };
 /// Follows the motion that `present` begins with, moved by a hundredth of the static deflection, then the random
-/// starts, in time until 12 periods of the excitation repeat twice, or to the end, where other periods below 12 are
-/// looked for. Two motions are the same when forces (relative to
-/// the largest) and loss of contact of their meshes differ by less than 2 %; meshes may change places. A motion that
-/// does not repeat is irregular where two of its states that are close to each other part; all irregular motions count
-/// as one. Others are undecided. `taken` marks the motion to which `present` leads; a steady one is a motion in any
-/// case. The integrator needs its absolute tolerance.
+/// starts, in time until 12 periods of the excitation repeat twice, or for 288 periods, after which other periods below
+/// 12 are looked for. Two motions are the same when forces (relative to the largest) and loss of contact of their
+/// meshes differ by less than 2 %; meshes may change places. A motion that does not repeat is irregular where two of
+/// its states that are close to each other part; all irregular motions count as one, whose largest force is that of the
+/// last third of the time. Others are followed as long again, and are undecided where that does not help. `taken` marks
+/// the motion to which `present` leads; a steady one is a motion in any case. The integrator needs its absolute
+/// tolerance.
 [[nodiscard]] StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& problem,
                                            const SteadyOutcome& present, const IntegratorOptions& integrator,
                                            const MotionSearch& search);
@@ -60,7 +61,7 @@ struct StableMotions {
 /// machine; 0 where these are fewer than four.
 [[nodiscard]] int affordable_starts(const LumpedSystem& system, const SteadyProblem& problem,
                                     const IntegratorOptions& integrator, int wanted);
-/// Periods of the excitation until a start is decided, on average: from 48 to 288.
+/// Periods of the excitation until a start is decided, on average: from 48 to 576.
 inline constexpr int periods_of_a_start = 80;
 
 /// Longest period, mesh cycles, for which motions are looked for.

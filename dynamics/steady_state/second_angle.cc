@@ -22,13 +22,6 @@ Eigen::MatrixXcd amplitudes_of(const Eigen::Ref<const Eigen::VectorXd>& values, 
   return result;
 }
 
-Eigen::VectorXd sum_at(const Eigen::MatrixXcd& amplitudes, double angle) {
-  Eigen::VectorXd sum = amplitudes.col(0).real();
-  for (Eigen::Index l = 1; l < amplitudes.cols(); ++l)
-    sum += 2 * (amplitudes.col(l) * std::polar(1.0, static_cast<double>(l) * angle)).real();
-  return sum;
-}
-
 }  // namespace
 
 Eigen::MatrixXd along_both_angles(const Eigen::MatrixXd& values, int rows, double advance, Eigen::Index count) {
@@ -57,15 +50,15 @@ Eigen::MatrixXd at_rows(const Eigen::MatrixXd& values, int rows, int wanted) {
   Eigen::MatrixXd result(samples * wanted, values.cols());
   for (Eigen::Index m = 0; m < values.cols(); ++m) {
     const Eigen::MatrixXcd amplitudes = amplitudes_of(values.col(m), rows);
-    for (int row = 0; row < wanted; ++row)
-      result.col(m).segment(row * samples, samples) = sum_at(amplitudes, 2 * std::numbers::pi * row / wanted);
+    for (int row = 0; row < wanted; ++row) {
+      auto part = result.col(m).segment(row * samples, samples);
+      part = amplitudes.col(0).real();
+      for (Eigen::Index l = 1; l < amplitudes.cols(); ++l)
+        part += 2 * (amplitudes.col(l) *
+                     std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(l * row) / static_cast<double>(wanted)))
+                        .real();
+    }
   }
-  return result;
-}
-
-Eigen::MatrixXd at_second_angle(const Eigen::MatrixXd& values, int rows, double angle) {
-  Eigen::MatrixXd result(values.rows() / rows, values.cols());
-  for (Eigen::Index m = 0; m < values.cols(); ++m) result.col(m) = sum_at(amplitudes_of(values.col(m), rows), angle);
   return result;
 }
 

@@ -13,7 +13,5 @@ namespace annulus::dynamics {
                                                 Eigen::Index count);
 /// The same functions at another number of rows.
 [[nodiscard]] Eigen::MatrixXd at_rows(const Eigen::MatrixXd& values, int rows, int wanted);
-/// The values where the second angle has this value (rad): samples x functions.
-[[nodiscard]] Eigen::MatrixXd at_second_angle(const Eigen::MatrixXd& values, int rows, double angle);
 
 }  // namespace annulus::dynamics

@@ -15,21 +15,6 @@ namespace annulus {
 
 namespace {
 
-/// A ring on pins, its mesh solved in the plane; the sun's stiffness is given. Two ring positions and few mesh cycles.
-std::string pinned_scene() {
-  auto text = test::replaced(test::quick_scene(), "structure = \"traditional\"\n",
-                             "structure = \"pinned\"\npins = 81\npin_diameter_mm = 15.5\n");
-  text = test::replaced(text, "title = \"Quick\"\n", "title = \"Quick\"\naccuracy = 0.05\n");
-  text = test::replaced(text, "[sun]\n", "[sun]\nbore_diameter_mm = 130\n");
-  text = test::replaced(text, "[planet]\n", "[planet]\nbore_diameter_mm = 172\n");
-  text = test::replaced(text, "planet_N_per_m = 1e9\n", "planet_N_per_m = 1e9\nring_N_per_m = 1e9\n");
-  text = test::replaced(text, "[mesh.ring_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294\n",
-                        "");
-  for (const std::string unit : {"_um", "_phase_deg"})
-    text = test::replaced(text, "planet_eccentricity" + unit, "planet_pin_position_error" + unit);
-  return test::replaced(text, "mesh_cycles = 110\n", "mesh_cycles = 4\n");
-}
-
 app::RunResult run_reusing(const std::string& text, const std::filesystem::path& out) {
   log::set_level(log::Level::quiet);
   return app::run(app::parse_scene(text, "scene.toml"), {.out = out, .threads = 2});
@@ -49,7 +34,7 @@ BOOST_AUTO_TEST_SUITE(reuse)
 
 BOOST_AUTO_TEST_CASE(a_second_run_computes_nothing) {
   const test::TemporaryFolder folder("reuse_second");
-  const auto text = pinned_scene() + "[[sweep]]\ninput = \"supports.sun_N_per_m\"\nvalues = [1e7, 2e7]\n";
+  const auto text = test::pinned_scene() + "[[sweep]]\ninput = \"supports.sun_N_per_m\"\nvalues = [1e7, 2e7]\n";
   const auto first = run_reusing(text, folder.path());
   BOOST_TEST(has(first.reuse->computed(), mesh_of_ring));
   BOOST_TEST(has(first.reuse->computed(), dynamics_of));
@@ -74,11 +59,11 @@ BOOST_AUTO_TEST_CASE(a_second_run_computes_nothing) {
 
 BOOST_AUTO_TEST_CASE(an_input_of_the_dynamics_solves_no_mesh) {
   const test::TemporaryFolder folder("reuse_dynamics");
-  (void)run_reusing(pinned_scene(), folder.path());
+  (void)run_reusing(test::pinned_scene(), folder.path());
   for (const auto& [what, by] : {std::pair{"half_backlash_um = 50", "half_backlash_um = 60"},
                                  {"sun_N_per_m = 1e7", "sun_N_per_m = 3e7"},
                                  {"planet_pin_position_error_um = [15", "planet_pin_position_error_um = [25"}}) {
-    const auto changed = run_reusing(test::replaced(pinned_scene(), what, by), folder.path());
+    const auto changed = run_reusing(test::replaced(test::pinned_scene(), what, by), folder.path());
     BOOST_TEST(has(changed.reuse->reused(), mesh_of_ring), by);
     BOOST_TEST(has(changed.reuse->computed(), dynamics_of), by);
     BOOST_TEST(changed.reuse->counted(app::condensed_teeth).computed == 0, by);
@@ -88,12 +73,12 @@ BOOST_AUTO_TEST_CASE(an_input_of_the_dynamics_solves_no_mesh) {
 
 BOOST_AUTO_TEST_CASE(other_pins_condense_no_tooth) {
   const test::TemporaryFolder folder("reuse_pins"), fresh("reuse_fresh");
-  (void)run_reusing(pinned_scene(), folder.path());
+  (void)run_reusing(test::pinned_scene(), folder.path());
   int case_number = 0;
   for (const auto& [what, by] :
        {std::pair{"pins = 81", "pins = 54\nfirst_pin_angle_deg = 0.7\npin_clearance_um = 3"},
         {"structure = \"pinned\"", "structure = \"bolted\"\npin_radial_stiffness_N_per_m = 4e9"}}) {
-    const auto text = test::replaced(pinned_scene(), what, by);
+    const auto text = test::replaced(test::pinned_scene(), what, by);
     const auto changed = run_reusing(text, folder.path());
     BOOST_TEST(has(changed.reuse->computed(), mesh_of_ring), by);
     BOOST_TEST(changed.reuse->counted(app::condensed_teeth).computed == 0, by);

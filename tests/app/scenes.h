@@ -127,4 +127,18 @@ inline std::string replaced(std::string text, const std::string& what, const std
   return text.replace(at, what.size(), by);
 }
 
+/// A ring on pins, its mesh solved in the plane; the sun's stiffness is given. Two ring positions and few mesh cycles.
+inline std::string pinned_scene() {
+  auto text = replaced(quick_scene(), "structure = \"traditional\"\n",
+                       "structure = \"pinned\"\npins = 81\npin_diameter_mm = 15.5\n");
+  text = replaced(text, "title = \"Quick\"\n", "title = \"Quick\"\naccuracy = 0.05\n");
+  text = replaced(text, "[sun]\n", "[sun]\nbore_diameter_mm = 130\n");
+  text = replaced(text, "[planet]\n", "[planet]\nbore_diameter_mm = 172\n");
+  text = replaced(text, "planet_N_per_m = 1e9\n", "planet_N_per_m = 1e9\nring_N_per_m = 1e9\n");
+  text = replaced(text, "[mesh.ring_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294\n", "");
+  for (const std::string unit : {"_um", "_phase_deg"})
+    text = replaced(text, "planet_eccentricity" + unit, "planet_pin_position_error" + unit);
+  return replaced(text, "mesh_cycles = 110\n", "mesh_cycles = 4\n");
+}
+
 }  // namespace annulus::test

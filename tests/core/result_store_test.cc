@@ -193,12 +193,13 @@ BOOST_AUTO_TEST_CASE(it_looks_in_other_folders_and_leaves_them_alone) {
   ResultStore(second, "program").keep("word", "a", "of the second");
   const ResultStore store(own, "program", ResultStore::usual_most_bytes, {first, second});
   BOOST_TEST((store.find("word", "a") == "of the first"));
-  BOOST_TEST((store.find_all("word", "a") == std::vector<std::string>{"of the first", "of the second"}));
+  BOOST_TEST(!store.find_own("word", "a"));
   store.keep("word", "a", "own");
   BOOST_TEST((store.find("word", "a") == "own"));
-  BOOST_TEST((store.find_all("word", "a") == std::vector<std::string>{"own", "of the first", "of the second"}));
+  BOOST_TEST((store.find_own("word", "a") == "own"));
+  BOOST_TEST((store.find_others("word", "a") == std::vector<std::string>{"of the first", "of the second"}));
   BOOST_TEST((store.find("word", "b") == "b of the first"));
-  BOOST_TEST(store.find_all("word", "c").empty());
+  BOOST_TEST(store.find_others("word", "c").empty());
   BOOST_TEST((ResultStore(first, "program").find("word", "a") == "of the first"));
   BOOST_TEST(!ResultStore(own, "program").find("word", "b"));
 }

@@ -93,7 +93,7 @@ Csv teeth_table(const fem::SolvedRingCoupling& solved) {
 }
 
 /// ring_coupling.csv, ring_modes.csv and ring_compliance.csv.
-void save(const SolvedCoupling& solved, const std::string& id, const std::filesystem::path& folder) {
+void save(const SolvedCoupling& solved, const std::string& id, const std::filesystem::path& folder, Times times) {
   const std::vector<std::pair<std::string, std::string>> stamp = {{"annulus_version", version()}, {"inputs_id", id}};
   std::filesystem::create_directories(folder);
   auto teeth = solved.teeth;
@@ -105,7 +105,7 @@ void save(const SolvedCoupling& solved, const std::string& id, const std::filesy
       coupling.provenance.end(),
       {{"coupling_error_m_per_N", fmt::format("{:.17g}", solved.compliance_error)},
        {"mode_frequency_error_relative", fmt::format("{:.17g}", solved.frequency_error_relative)}});
-  if (std::isfinite(solved.seconds))
+  if (times == Times::stated)
     coupling.provenance.emplace_back("coupling_seconds", fmt::format("{:.3f}", solved.seconds));
   coupling.write_csv(folder / "ring_coupling.csv", folder / "ring_modes.csv");
 }
@@ -198,8 +198,7 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
   };
   const auto id = coupling_id(scene, geometry, model, ring);
   auto [result, reused] = cached_value(options.store.get(), cached_couplings, id, solve);
-  if (options.times == Times::left_out) result.seconds = not_known;
-  save(result, id, folder);
+  save(result, id, folder, options.times);
   result.teeth = {};
   result.mesh_compliance = mesh_compliance;
   result.path_compliance = path_compliance(scene, geometry, mesh_compliance);

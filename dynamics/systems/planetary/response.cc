@@ -8,7 +8,7 @@
 
 #include "core/errors.h"
 #include "dynamics/statics/static_solver.h"
-#include "dynamics/steady_state/quasi_static_path.h"
+#include "dynamics/steady_state/quasi_static_forces.h"
 
 namespace annulus::dynamics {
 
