@@ -282,9 +282,9 @@ void study_plan_command(const Arguments& arguments) {
 
 void study_run_command(const Arguments& arguments) {
   const RunOptions options{.cache = arguments.folder, .threads = arguments.threads, .command = arguments.command_line};
-  const auto shard = Shard::parse(arguments.shard);
+  const auto worker = worker_of(arguments.shard);
   hold(arguments, options);
-  fmt::print("{}", run_shard(arguments.folder, shard, options));
+  fmt::print("{}", run_shard(arguments.folder, worker, options));
 }
 
 void study_collect_command(const Arguments& arguments) {

@@ -1,8 +1,10 @@
 # What `cmake --install` and `cpack` put where: the program with its manual page, completions and scenes, and the
 # libraries with their headers and CMake package files.
 
-set_target_properties(annulus_cli annulus_fem PROPERTIES
-                      INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+get_property(loaded_libraries GLOBAL PROPERTY ANNULUS_LOADED_LIBRARIES)
+set(libraries annulus_core annulus_geometry annulus_fem annulus_dynamics)
+set_target_properties(annulus_cli PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+set_target_properties(${libraries} ${loaded_libraries} PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(TARGETS annulus_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/scenes ${PROJECT_SOURCE_DIR}/data/cases DESTINATION ${CMAKE_INSTALL_DATADIR}/annulus)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
@@ -35,13 +37,13 @@ install(FILES ${generated}/annulus.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 
 # The layers below the application as libraries: find_package(annulus), annulus::annulus_dynamics.
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/annulus)
-install(TARGETS annulus_core annulus_geometry annulus_fem annulus_dynamics annulus_gmsh annulus_fftw
-        EXPORT annulusTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS ${libraries} EXPORT annulusTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS ${loaded_libraries} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT annulusTargets NAMESPACE annulus:: DESTINATION ${package_folder})
 foreach(layer core geometry fem dynamics)
-  # Not elastic_problem.h, which shows deal.II.
+  # Not those of loaded libraries, which show deal.II and gmsh.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/annulus
-          FILES_MATCHING PATTERN "*.h" PATTERN elastic_problem.h EXCLUDE)
+          FILES_MATCHING PATTERN "*.h" PATTERN dealii EXCLUDE PATTERN gmsh EXCLUDE PATTERN pagmo EXCLUDE)
 endforeach()
 include(CMakePackageConfigHelpers)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/annulusConfig.cmake.in ${generated}/annulusConfig.cmake
@@ -62,6 +64,6 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS "libjs-chart.js, libjs-three, node-pako")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenblas0-pthread")
 # For who builds against the libraries.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "libeigen3-dev, nlohmann-json3-dev, libfmt-dev, libspdlog-dev, libgmsh-dev, libsundials-dev, libpagmo-dev, libfftw3-dev, libboost-dev")
+    "libeigen3-dev, nlohmann-json3-dev, libboost-dev")
 set(CPACK_STRIP_FILES ON)
 include(CPack)

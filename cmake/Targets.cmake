@@ -1,32 +1,56 @@
 include(GNUInstallDirs)
 
-# One library per layer, of all sources in its folder and below, but for main.cc:
-#   annulus_add_layer(core [SHARED] PUBLIC ... PRIVATE ... PRECOMPILE <Eigen/Core>)
+# A shared library per layer, of all sources in its folder and below, but for main.cc and for folders with libraries of
+# their own; the application, which nothing else links, is a static one:
+#   annulus_add_layer(core PUBLIC ... PRIVATE ... PRECOMPILE <Eigen/Core>)
 # PRECOMPILE names headers of other libraries that most sources include and that take long to read.
 function(annulus_add_layer name)
-  cmake_parse_arguments(ARG "SHARED" "" "PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
-  file(GLOB_RECURSE ARG_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
-  list(FILTER ARG_SOURCES EXCLUDE REGEX "/main\\.cc$|/systems/skeleton/")
-  if(ARG_SHARED AND NOT ANNULUS_CHECKED)
-    add_library(annulus_${name} SHARED ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "STATIC" "" "PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  file(GLOB_RECURSE libraries CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*/CMakeLists.txt)
+  foreach(library ${libraries})
+    get_filename_component(folder ${library} DIRECTORY)
+    list(FILTER sources EXCLUDE REGEX "^${folder}/")
+  endforeach()
+  list(FILTER sources EXCLUDE REGEX "/main\\.cc$|/systems/skeleton/")
+  if(ARG_STATIC)
+    add_library(annulus_${name} STATIC ${sources})
   else()
-    add_library(annulus_${name} STATIC ${ARG_SOURCES})
+    add_library(annulus_${name} SHARED ${sources})
   endif()
   target_include_directories(annulus_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/annulus>)
   target_link_libraries(annulus_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  annulus_finish_library(${name} ${ARG_PRECOMPILE})
+endfunction()
+
+# A library that core/loaded_library.h loads when it is needed, of the sources in its folder:
+#   annulus_add_loaded_library(elements LAYER fem PRIVATE annulus_dealii)
+function(annulus_add_loaded_library name)
+  cmake_parse_arguments(ARG "" "LAYER" "PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  add_library(annulus_${name} SHARED ${sources})
+  target_link_libraries(annulus_${name} PUBLIC annulus_${ARG_LAYER} PRIVATE ${ARG_PRIVATE})
+  annulus_finish_library(${name})
+  set_property(GLOBAL APPEND PROPERTY ANNULUS_LOADED_LIBRARIES annulus_${name})
+endfunction()
+
+# For programs: nothing that they link builds the libraries that they load.
+function(annulus_needs_loaded_libraries program)
+  get_property(libraries GLOBAL PROPERTY ANNULUS_LOADED_LIBRARIES)
+  add_dependencies(${program} ${libraries})
+endfunction()
+
+function(annulus_finish_library name)
   annulus_set_warnings(annulus_${name})
-  if(ARG_PRECOMPILE)
-    target_precompile_headers(annulus_${name} PRIVATE ${ARG_PRECOMPILE})
+  if(ARGN)
+    target_precompile_headers(annulus_${name} PRIVATE ${ARGN})
   endif()
   # The layers that a scene or a table reaches before a solve guide the fuzzer.
   if(ANNULUS_CHECKED AND name MATCHES "^(core|geometry|app)$")
     target_compile_options(annulus_${name} PRIVATE -fsanitize=fuzzer-no-link)
   endif()
 endfunction()
-
-# Cached results belong to the build that computed them.
-add_link_options(LINKER:--build-id)
 
 function(annulus_set_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
@@ -78,6 +102,7 @@ function(annulus_add_tests name)
   cmake_parse_arguments(ARG "" "LAYER" "LINK;PRECOMPILE;SUITES" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
   add_executable(test_${name} ${sources})
+  annulus_needs_loaded_libraries(test_${name})
   target_link_libraries(test_${name} PRIVATE annulus_test_main ${ARG_LINK} Boost::unit_test_framework)
   target_compile_definitions(test_${name} PRIVATE ANNULUS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # Each test case runs with traps: the header comes before every source, precompiled or not.

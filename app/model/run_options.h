@@ -20,6 +20,11 @@ class ResultFolder;
 /// same whoever computed what.
 enum class Times { stated, left_out };
 
+/// Which of the workers of one study this is: where it begins in work that all of them share.
+struct Worker {
+  int number = 1, count = 1;
+};
+
 struct RunOptions {
   std::filesystem::path out{};     ///< folder of all results
   std::filesystem::path cache{};   ///< folder of cached results; empty: OUT/cache
@@ -31,6 +36,7 @@ struct RunOptions {
   // Set by the run itself (with_reuse); without them nothing is noted and everything is computed.
   std::shared_ptr<Reuse> reuse{};
   std::shared_ptr<const ResultStore> store{};
+  Worker worker{};
   bool for_study = false;  ///< what is computed belongs to a changed scene
   /// Changes how a mesh is solved from what was planned (measurements); absent: as planned.
   std::function<MeshModel(const MeshModel& planned)> remodel{};

@@ -4,11 +4,16 @@
 #include <fmt/format.h>
 #include <link.h>
 
+#include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <string_view>
+#include <vector>
 
 #include "app/results/content_id.h"
 #include "core/errors.h"
+#include "core/loaded_library.h"
 
 namespace annulus::app {
 
@@ -36,10 +41,17 @@ std::string build_id_in(const char* notes, std::size_t size) {
   return {};
 }
 
+/// Whether a file is one of the libraries that are loaded when they are needed.
+bool is_loaded_library(std::string_view file) {
+  const auto name = std::filesystem::path(file).filename();
+  const auto all = loaded_libraries();
+  return std::any_of(all.begin(), all.end(), [&](const LoadedLibrary& l) { return l.file().filename() == name; });
+}
+
 int add_build_id(dl_phdr_info* object, std::size_t /*size*/, void* identity) {
   const std::string_view name(object->dlpi_name);
   // The program itself has no name; libraries of others do not belong to the build.
-  if (!name.empty() && name.find("libannulus_") == std::string_view::npos) return 0;
+  if (!name.empty() && (name.find("libannulus_") == std::string_view::npos || is_loaded_library(name))) return 0;
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const auto& segment = object->dlpi_phdr[i];
     if (segment.p_type != PT_NOTE) continue;
@@ -51,6 +63,27 @@ int add_build_id(dl_phdr_info* object, std::size_t /*size*/, void* identity) {
   return 0;
 }
 
+/// The build identity of a library that may not be loaded, from its file; empty when there is none.
+std::string build_id_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const auto read = [&in](std::size_t place, char* bytes, std::size_t size) {
+    in.seekg(static_cast<std::streamoff>(place));
+    in.read(bytes, static_cast<std::streamsize>(size));
+    return in.good();
+  };
+  ElfW(Ehdr) header{};
+  if (!read(0, reinterpret_cast<char*>(&header), sizeof header)) return {};
+  for (std::size_t i = 0; i < header.e_phnum; ++i) {
+    ElfW(Phdr) segment{};
+    if (!read(header.e_phoff + i * header.e_phentsize, reinterpret_cast<char*>(&segment), sizeof segment)) return {};
+    if (segment.p_type != PT_NOTE) continue;
+    std::vector<char> notes(segment.p_filesz);
+    if (!read(segment.p_offset, notes.data(), notes.size())) return {};
+    if (auto id = build_id_in(notes.data(), notes.size()); !id.empty()) return id;
+  }
+  return {};
+}
+
 }  // namespace
 
 const std::string& program_identity() {
@@ -58,6 +91,11 @@ const std::string& program_identity() {
     std::string ids;
     ::dl_iterate_phdr(add_build_id, &ids);
     require(!ids.empty(), "the linker gives the program a build identity");
+    for (const auto& library : loaded_libraries()) {
+      const auto id = build_id_of(library.file());
+      require(!id.empty(), "the linker gives " + library.file().string() + " a build identity");
+      ids += " " + id;
+    }
     return std::string("annulus ") + version() + ids;
   }();
   return identity;

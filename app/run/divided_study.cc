@@ -37,12 +37,16 @@ constexpr std::uintmax_t without_limit = UINTMAX_MAX;
 
 fs::path packs_of(const fs::path& folder) { return folder / "packs"; }
 
-/// The packs of all workers, sorted; without `but`.
-std::vector<fs::path> packs(const fs::path& folder, const fs::path& but = {}) {
+fs::path pack_of(const fs::path& folder, const Worker& worker) {
+  return packs_of(folder) / fmt::format("{}_of_{}", worker.number, worker.count);
+}
+
+/// The packs of all workers, sorted.
+std::vector<fs::path> packs(const fs::path& folder) {
   std::vector<fs::path> list;
   std::error_code none;
   for (fs::directory_iterator pack(packs_of(folder), none), end; !none && pack != end; pack.increment(none))
-    if (pack->is_directory() && pack->path() != but) list.push_back(pack->path());
+    if (pack->is_directory()) list.push_back(pack->path());
   std::sort(list.begin(), list.end());
   return list;
 }
@@ -73,21 +77,16 @@ std::set<std::string> computed_parts(const ResultStore& store, const std::string
 
 /// A line per part.
 std::string points_csv(const std::vector<StudyPart>& parts, const std::vector<std::vector<std::size_t>>& by_worker) {
-  std::vector<std::size_t> worker(parts.size());
+  std::vector<std::string> worker(parts.size(), "all");
   for (std::size_t i = 0; i < by_worker.size(); ++i)
-    for (const std::size_t place : by_worker[i]) worker[place] = i + 1;
+    for (const std::size_t place : by_worker[i])
+      if (parts[place].workers == 1) worker[place] = std::to_string(i + 1);
   std::string text =
       fmt::format("# annulus_version: {}\npart,predicted_s,shard_of_{},study,what\n", version(), by_worker.size());
   for (std::size_t i = 0; i < parts.size(); ++i)
     text += fmt::format("{},{:.6g},{},{},{}\n", i + 1, parts[i].seconds, worker[i], csv_cell(parts[i].study),
                         csv_cell(parts[i].what));
   return text;
-}
-
-std::vector<double> seconds_of(const std::vector<StudyPart>& parts) {
-  std::vector<double> list;
-  for (const auto& part : parts) list.push_back(std::isfinite(part.seconds) ? part.seconds : 0.0);
-  return list;
 }
 
 /// Files of the scene, which go along with it.
@@ -123,20 +122,21 @@ std::shared_ptr<SystemRun> own_results(const Scene& scene, const fs::path& folde
 
 }  // namespace
 
-Shard Shard::parse(const std::string& text) {
-  Shard shard;
+Worker worker_of(const std::string& text) {
+  Worker worker;
   const char* end = text.data() + text.size();
-  const auto [slash, error] = std::from_chars(text.data(), end, shard.number);
+  const auto [slash, error] = std::from_chars(text.data(), end, worker.number);
   const bool halved = error == std::errc{} && slash != end && *slash == '/';
-  const auto [rest, other] = halved ? std::from_chars(slash + 1, end, shard.count) : std::from_chars_result{end, error};
+  const auto [rest, other] =
+      halved ? std::from_chars(slash + 1, end, worker.count) : std::from_chars_result{end, error};
   constexpr int most = 100'000;
-  if (!halved || other != std::errc{} || rest != end || shard.count < 1 || shard.count > most || shard.number < 1 ||
-      shard.number > shard.count)
+  if (!halved || other != std::errc{} || rest != end || worker.count < 1 || worker.count > most || worker.number < 1 ||
+      worker.number > worker.count)
     throw InputError(
         fmt::format("--shard {}: is not the number of a worker and how many there are, as 1/8 to 8/8 (at "
                     "most {} workers)",
                     text, most));
-  return shard;
+  return worker;
 }
 
 std::string plan_study(const Scene& scene, const fs::path& folder, int workers) {
@@ -149,17 +149,15 @@ std::string plan_study(const Scene& scene, const fs::path& folder, int workers) 
   if (fs::exists(folder / "run.json"))
     throw InputError(fmt::format("--out {}: holds the results of a run; use another folder", folder.string()));
   const auto files = files_of(scene);
-  // More workers than parts would have nothing to do.
-  const int shards = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(workers), parts.size()));
-  const auto seconds = seconds_of(parts);
-  const auto by_worker = shares(seconds, shards);
-  double all = 0, longest = 0;
-  for (const auto& share : by_worker) {
-    double sum = 0;
-    for (const std::size_t place : share) sum += seconds[place];
-    all += sum;
-    longest = std::max(longest, sum);
+  // More workers would have nothing to do.
+  std::size_t at_work = 0;
+  double all = 0;
+  for (const auto& part : parts) {
+    at_work += static_cast<std::size_t>(part.workers);
+    if (std::isfinite(part.seconds)) all += part.seconds;
   }
+  const int shards = static_cast<int>(std::min(static_cast<std::size_t>(workers), at_work));
+  const double longest = longest_share(parts, shards);
   const auto system = make_system(scene);
   auto own = system->plan(1).cost;
   std::erase_if(own.steps, [](const CostStep& step) { return step.kind == CostKind::studies; });
@@ -175,7 +173,7 @@ std::string plan_study(const Scene& scene, const fs::path& folder, int workers) 
     fs::create_directories((folder / name).parent_path());
     write_file(folder / name, read_file(scene.file.parent_path() / name));
   }
-  write_file(folder / points_name, points_csv(parts, by_worker));
+  write_file(folder / points_name, points_csv(parts, shares(parts, shards)));
   write_script(folder / "study.sh", parallel_script(shards));
   write_script(folder / "study.sbatch", slurm_script(folder, shards, first + pace * longest, own.peak_MB()));
   fs::create_directories(folder / "logs");
@@ -199,19 +197,24 @@ std::string plan_study(const Scene& scene, const fs::path& folder, int workers) 
              shards, shards, shards, here);
 }
 
-std::string run_shard(const fs::path& folder, const Shard& shard, const RunOptions& given) {
+std::string run_shard(const fs::path& folder, const Worker& worker, const RunOptions& given) {
   const auto scene = planned_scene(folder);
   const auto parts = study_parts(scene);
-  const auto mine = shares(seconds_of(parts), shard.count)[static_cast<std::size_t>(shard.number - 1)];
-  const auto pack = packs_of(folder) / fmt::format("{}_of_{}", shard.number, shard.count);
+  const auto mine = shares(parts, worker.count)[static_cast<std::size_t>(worker.number - 1)];
+  const auto pack = pack_of(folder, worker);
   fs::create_directories(pack);
-  auto others = packs(folder, pack);
-  others.push_back(folder / "cache");
+  // With those that other workers are about to make.
+  std::set<fs::path> others = {folder / "cache"};
+  for (int i = 1; i <= worker.count; ++i) others.insert(pack_of(folder, {i, worker.count}));
+  for (const auto& known : packs(folder)) others.insert(known);
+  others.erase(pack);
   RunOptions options = given;
   options.out = pack / "files";
   options.cache = pack;
+  options.worker = worker;
   options = with_reuse(options);
-  options.store = std::make_shared<ResultStore>(pack, program_identity(), without_limit, std::move(others));
+  options.store = std::make_shared<ResultStore>(pack, program_identity(), without_limit,
+                                                std::vector<fs::path>(others.begin(), others.end()));
   const auto scene_id = id_of(scene);
   const auto known = computed_parts(*options.store, scene_id);
   std::vector<std::size_t> open;
@@ -227,8 +230,10 @@ std::string run_shard(const fs::path& folder, const Shard& shard, const RunOptio
     });
     fs::remove_all(options.out);
   }
-  return fmt::format("shard {}/{}: {} parts computed{}\n", shard.number, shard.count, open.size(),
-                     done > 0 ? fmt::format(", {} were done before", done) : "");
+  const auto of_searches = options.reuse->counted(search_evaluations).computed;
+  return fmt::format("shard {}/{}: {} parts computed{}{}\n", worker.number, worker.count, open.size(),
+                     of_searches > 0 ? fmt::format(", with {} points of searches", of_searches) : "",
+                     done > 0 ? fmt::format("; {} were done before", done) : "");
 }
 
 Collected collect_study(const fs::path& folder, const RunOptions& given) {

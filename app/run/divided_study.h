@@ -9,7 +9,8 @@
 #include "app/scene/scene.h"
 
 /// The studies of a scene on many machines that share a folder. Slurm or GNU parallel start the workers; this gives
-/// each of them its share and merges what they found. All results are cached by their content: a worker that was killed
+/// each of them its share and merges what they found. Searches are not shared out: all workers compute the points of
+/// every generation together. All results are cached by their content: a worker that was killed
 /// goes on where it was, and one that runs twice computes nothing twice.
 ///
 ///     FOLDER/scene.toml     the scene with its files, as it was planned
@@ -21,18 +22,14 @@
 ///     FOLDER/results        of the merged run
 namespace annulus::app {
 
-/// What a worker is called: 3 of 7.
-struct Shard {
-  int number = 1, count = 1;
-  /// From "3/7". Throws InputError.
-  [[nodiscard]] static Shard parse(const std::string& text);
-};
+/// From "3/7". Throws InputError.
+[[nodiscard]] Worker worker_of(const std::string& text);
 
 /// Writes scene, parts and scripts. Returns what to do next, for people. Throws InputError for a scene without studies.
 std::string plan_study(const Scene& scene, const std::filesystem::path& folder, int shards);
 
 /// Computes the parts of a worker that nobody has computed yet. Returns what it did, for people.
-std::string run_shard(const std::filesystem::path& folder, const Shard& shard, const RunOptions& options);
+std::string run_shard(const std::filesystem::path& folder, const Worker& worker, const RunOptions& options);
 
 /// The planned scene, and the options of the run that merges: it finds all parts. Throws Error naming those that are
 /// missing.

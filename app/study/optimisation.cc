@@ -179,8 +179,17 @@ struct FoundSearch {
   Csv answers;  ///< of the model
 };
 
+/// Calls `task` for a list of points on some threads. Of several workers each begins at its own place of the list: none
+/// waits for another, and they meet only where one of them is slower.
+void for_each_point(const std::vector<std::vector<double>>& points, const Worker& worker, int threads,
+                    const std::function<void(const std::vector<double>&)>& task) {
+  const auto first =
+      points.size() * static_cast<std::size_t>(worker.number - 1) / static_cast<std::size_t>(worker.count);
+  for_each_task(points.size(), threads, [&](std::size_t i) { task(points[(first + i) % points.size()]); });
+}
+
 FoundSearch search(const StudySubject& subject, const DesignObjective& objective, const std::string& optimiser,
-                   int repeat, TaskProgress& progress) {
+                   int repeat, int threads, TaskProgress& progress) {
   const auto& scene = subject.scene();
   // The answers depend on the scene, not on how the search goes on; what is cached together is one search's.
   const auto id = ContentId()
@@ -192,20 +201,50 @@ FoundSearch search(const StudySubject& subject, const DesignObjective& objective
   for (const auto& v : scene.variables) columns.inputs.push_back(file_name(v.input));
   for (const auto& f : subject.figures())
     if (f.effort != FigureEffort::motion || !objective.quick()) columns.results.push_back(f.key);
-  PointTable points(subject.options().store.get(), "searches", id, columns, subject.figures());
+  const auto& worker = subject.options().worker;
+  PointTable points(subject.options().store.get(), "searches", id, columns, subject.figures(),
+                    worker.count > 1 ? PointTable::Work::together : PointTable::Work::alone);
+  const auto point_at = [&](const std::vector<double>& x) -> const StudyPoint& {
+    return points.point(x, [&] { return objective.evaluate(x, objective.searched()); });
+  };
+  const auto ahead = [&](const std::vector<std::vector<double>>& list) {
+    for_each_point(list, worker, threads, [&](const std::vector<double>& x) { (void)point_at(x); });
+  };
   const auto answer = [&](const std::vector<double>& x) {
-    const auto& point = points.point(x, [&] { return objective.evaluate(x, objective.searched()); });
+    const auto& point = point_at(x);
     if (const auto trouble = objective.trouble(point); !trouble.empty()) throw SolverError(trouble);
     return objective.sign() * objective.value(point);
   };
   const auto options = search_options(*scene.optimise, optimiser, repeat);
   OptimiseRun run{.optimiser = optimiser, .repeat = repeat + 1, .search = {}};
-  run.search = dynamics::optimise(search_variables(scene), answer, options, [&](const auto&) { progress.done(); });
+  run.search = dynamics::optimise(
+      search_variables(scene), answer, options, [&](const auto&) { progress.done(); }, ahead);
   run.reused = points.reused();
   points.save();
   count_reuse(subject.options(), search_evaluations, run.reused,
               static_cast<long>(run.search.evaluations.size()) - run.reused);
+  // Not in the order in which threads and workers found them, and without those of an earlier, longer search.
+  std::vector<std::vector<double>> asked;
+  for (const auto& evaluation : run.search.evaluations) asked.push_back(evaluation.x);
+  points.restrict_to(asked);
   return {std::move(run), points.table()};
+}
+
+/// By its number among all searches.
+FoundSearch numbered_search(const StudySubject& subject, const DesignObjective& objective, std::size_t number,
+                            int threads, TaskProgress& progress) {
+  const auto& settings = *subject.scene().optimise;
+  const auto repeats = static_cast<std::size_t>(settings.repeats);
+  return search(subject, objective, settings.optimisers[number / repeats], static_cast<int>(number % repeats), threads,
+                progress);
+}
+
+/// Searches at once, as far as threads reach; threads that are left compute points of one search at once.
+void for_each_search(const StudySubject& subject, std::size_t count,
+                     const std::function<void(std::size_t search, int threads)>& task) {
+  const int threads = subject.options().threads;
+  const int at_once = std::min(threads, static_cast<int>(count));
+  for_each_task(count, at_once, [&](std::size_t i) { task(i, threads / at_once); });
 }
 
 /// The answers and the course of every search, and the best design as a scene.
@@ -240,14 +279,21 @@ const std::vector<std::string>& optimiser_names() {
   return names;
 }
 
+std::size_t searches(const OptimiseInput& settings) {
+  return settings.optimisers.size() * static_cast<std::size_t>(settings.repeats);
+}
+
 void compute_searches(const StudySubject& subject, const std::vector<std::size_t>& numbers) {
   const auto& settings = *subject.scene().optimise;
   const DesignObjective objective(subject);
-  const auto repeats = static_cast<std::size_t>(settings.repeats);
   TaskProgress progress("optimisation", numbers.size() * static_cast<std::size_t>(settings.generations + 1));
-  for_each_task(numbers.size(), subject.options().threads, [&](std::size_t i) {
-    (void)search(subject, objective, settings.optimisers[numbers[i] / repeats], static_cast<int>(numbers[i] % repeats),
-                 progress);
+  // All workers take part in every search, and each begins with another one.
+  const auto& worker = subject.options().worker;
+  const auto first =
+      numbers.size() * static_cast<std::size_t>(worker.number - 1) / static_cast<std::size_t>(worker.count);
+  for_each_search(subject, numbers.size(), [&](std::size_t i, int threads) {
+    const auto number = numbers[(first + i) % numbers.size()];
+    (void)numbered_search(subject, objective, number, threads, progress);
   });
   progress.finish(fmt::format("{} searches", numbers.size()));
 }
@@ -260,14 +306,12 @@ OptimiseResults run_optimise(const StudySubject& subject) {
       .settings = settings, .variables = scene.variables, .units = {}, .variant = objective.variant()};
   for (const auto& v : scene.variables) result.units.push_back(unit_of_input(scene, v.input));
 
-  const auto repeats = static_cast<std::size_t>(settings.repeats);
-  const std::size_t tasks = settings.optimisers.size() * repeats;
+  const std::size_t tasks = searches(settings);
   result.runs.resize(tasks);
   std::vector<Csv> answers(tasks);
   TaskProgress progress("optimisation", tasks * static_cast<std::size_t>(settings.generations + 1));
-  for_each_task(tasks, subject.options().threads, [&](std::size_t task) {
-    auto found =
-        search(subject, objective, settings.optimisers[task / repeats], static_cast<int>(task % repeats), progress);
+  for_each_search(subject, tasks, [&](std::size_t task, int threads) {
+    auto found = numbered_search(subject, objective, task, threads, progress);
     result.runs[task] = std::move(found.run);
     answers[task] = std::move(found.answers);
   });

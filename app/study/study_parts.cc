@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "app/model/plan_studies.h"
@@ -21,6 +22,7 @@ struct DividedStudy {
   std::string name;
   std::vector<std::string> parts;
   std::function<void(const StudySubject&, const std::vector<std::size_t>&)> compute;
+  int workers = 1;  ///< on one part
 };
 
 /// A part per case.
@@ -76,8 +78,9 @@ DividedStudy divided_samples(const Sampling& sampling) {
   return study;
 }
 
+/// Workers compute the points of a generation together.
 DividedStudy divided_searches(const OptimiseInput& settings) {
-  DividedStudy study{.name = "[optimise]", .parts = {}, .compute = compute_searches};
+  DividedStudy study{.name = "[optimise]", .parts = {}, .compute = compute_searches, .workers = settings.population};
   for (const auto& optimiser : settings.optimisers)
     for (int repeat = 0; repeat < settings.repeats; ++repeat)
       study.parts.push_back(fmt::format("{}, search {}", optimiser, repeat + 1));
@@ -117,7 +120,7 @@ std::vector<StudyPart> study_parts(const Scene& scene) {
     require(plan != plans.end(), study.name + " has no plan");
     const double seconds = plan->seconds + (plan->tables > 0 ? plan->tables * processor_seconds(plan->table) : 0.0);
     for (const auto& part : study.parts)
-      list.push_back({study.name, part, seconds / static_cast<double>(study.parts.size())});
+      list.push_back({study.name, part, seconds / static_cast<double>(study.parts.size()), study.workers});
   }
   return list;
 }
@@ -141,21 +144,42 @@ void compute_parts(const StudySubject& subject, const std::vector<std::size_t>& 
   }
 }
 
-std::vector<std::vector<std::size_t>> shares(const std::vector<double>& seconds, int workers) {
+namespace {
+
+double known_seconds(const StudyPart& part) { return std::isfinite(part.seconds) ? part.seconds : 0.0; }
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> shares(const std::vector<StudyPart>& parts, int workers) {
   // The longest part goes to the worker with the least to do.
-  std::vector<std::size_t> order(seconds.size());
+  std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return seconds[a] > seconds[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return known_seconds(parts[a]) > known_seconds(parts[b]); });
   std::vector<std::vector<std::size_t>> list(static_cast<std::size_t>(workers));
   std::vector<double> load(list.size(), 0.0);
   for (const std::size_t place : order) {
+    if (parts[place].workers > 1) {
+      for (auto& share : list) share.push_back(place);
+      continue;
+    }
     const auto least = static_cast<std::size_t>(std::min_element(load.begin(), load.end()) - load.begin());
     constexpr double of_any_part = 1e-6;  // parts without a predicted time are shared evenly too
-    load[least] += seconds[place] + of_any_part;
+    load[least] += known_seconds(parts[place]) + of_any_part;
     list[least].push_back(place);
   }
   for (auto& share : list) std::sort(share.begin(), share.end());
   return list;
+}
+
+double longest_share(const std::vector<StudyPart>& parts, int workers) {
+  double longest = 0;
+  for (const auto& share : shares(parts, workers)) {
+    double sum = 0;
+    for (const std::size_t place : share) sum += known_seconds(parts[place]) / std::min(workers, parts[place].workers);
+    longest = std::max(longest, sum);
+  }
+  return longest;
 }
 
 }  // namespace annulus::app

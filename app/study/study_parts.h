@@ -14,6 +14,8 @@ struct StudyPart {
   std::string study;   ///< "[[sweep]] 1", as in the scene
   std::string what;    ///< "value 7 of 20 (stage.power_kW = 900)", "samples 1 to 100"
   double seconds = 0;  ///< rough processor time
+  /// How many workers can compute it together. All workers take part in one of more than one.
+  int workers = 1;
 };
 
 /// The parts of all studies of a scene, in a fixed order. Computes nothing.
@@ -24,7 +26,10 @@ struct StudyPart {
 void compute_parts(const StudySubject& subject, const std::vector<std::size_t>& places,
                    const std::function<void(const std::vector<std::size_t>&)>& done);
 
-/// Which parts each of so many workers computes: places by worker, rising, so that the predicted times are even.
-[[nodiscard]] std::vector<std::vector<std::size_t>> shares(const std::vector<double>& seconds, int workers);
+/// Which parts each of so many workers computes: places by worker, rising, so that the predicted times are even. Parts
+/// that can be computed together are those of all.
+[[nodiscard]] std::vector<std::vector<std::size_t>> shares(const std::vector<StudyPart>& parts, int workers);
+/// The longest predicted time of a worker, s.
+[[nodiscard]] double longest_share(const std::vector<StudyPart>& parts, int workers);
 
 }  // namespace annulus::app

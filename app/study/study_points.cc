@@ -179,23 +179,28 @@ void PointColumns::add(Csv& csv, std::size_t number, const std::vector<double>& 
 }
 
 PointTable::PointTable(const ResultStore* store, const char* kind, std::string id, PointColumns columns,
-                       const std::vector<FigureSpec>& specs)
+                       const std::vector<FigureSpec>& specs, Work work)
     : store_(store),
       kind_(kind),
       id_(std::move(id)),
       columns_(std::move(columns)),
-      next_save_(std::chrono::steady_clock::now() + save_interval) {
-  read(specs);
-}
-
-void PointTable::read(const std::vector<FigureSpec>& specs) {
+      specs_(specs),
+      work_(work),
+      next_save_(std::chrono::steady_clock::now() + (work == Work::alone ? save_interval : std::chrono::seconds(0))) {
   if (!store_) return;
-  if (const auto own = store_->find_own(kind_, id_)) add(Csv::parse(*own, kind_), specs);
+  if (const auto own = store_->find_own(kind_, id_)) add(Csv::parse(*own, kind_));
   own_ = order_;
-  for (const auto& others : store_->find_others(kind_, id_)) add(Csv::parse(others, kind_), specs);
+  read_others();
 }
 
-void PointTable::add(const Csv& csv, const std::vector<FigureSpec>& specs) {
+void PointTable::read_others() {
+  const auto start = std::chrono::steady_clock::now();
+  for (const auto& others : store_->find_others(kind_, id_)) add(Csv::parse(others, kind_));
+  const auto end = std::chrono::steady_clock::now();
+  next_read_ = end + least_work * (end - start);
+}
+
+void PointTable::add(const Csv& csv) {
   const std::map<std::string, std::string> failures(csv.header.begin(), csv.header.end());
   const auto n = columns_.inputs.size();
   std::size_t number = 0;
@@ -205,22 +210,31 @@ void PointTable::add(const Csv& csv, const std::vector<FigureSpec>& specs) {
     const auto [entry, is_new] = points_.emplace(x, StudyPoint{});
     if (!is_new) continue;  // several workers had it
     order_.push_back(x);
+    unasked_.insert(x);
     auto& point = entry->second;
     if (row[n] != 0) {
       point.failure = failures.at(failure_line(number));
       continue;
     }
-    point.figures = FigureRow(specs);
+    point.figures = FigureRow(specs_);
     for (std::size_t i = 0; i < columns_.results.size(); ++i) point.figures.set(columns_.results[i], row[n + 1 + i]);
   }
+}
+
+const StudyPoint* PointTable::find(const std::vector<double>& inputs) {
+  const auto known = points_.find(inputs);
+  if (known == points_.end()) return nullptr;
+  if (unasked_.erase(inputs) > 0) ++reused_;
+  return &known->second;
 }
 
 const StudyPoint& PointTable::point(const std::vector<double>& inputs, const std::function<StudyPoint()>& make) {
   {
     const std::scoped_lock guard(lock_);
-    if (const auto known = points_.find(inputs); known != points_.end()) {
-      ++reused_;
-      return known->second;
+    if (const auto* known = find(inputs)) return *known;
+    if (work_ == Work::together && store_ && std::chrono::steady_clock::now() > next_read_) {
+      read_others();
+      if (const auto* known = find(inputs)) return *known;
     }
   }
   auto made = make();
@@ -253,7 +267,8 @@ void PointTable::save_locked() {
   const auto start = std::chrono::steady_clock::now();
   store_->keep(kind_, id_, table_of(own_).text());
   const auto end = std::chrono::steady_clock::now();
-  next_save_ = end + std::max<std::chrono::steady_clock::duration>(save_interval, least_work * (end - start));
+  const std::chrono::steady_clock::duration least = work_ == Work::together ? std::chrono::seconds(0) : save_interval;
+  next_save_ = end + std::max(least, least_work * (end - start));
   changed_ = false;
 }
 

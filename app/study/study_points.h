@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -57,9 +58,13 @@ struct PointColumns {
 /// reads those of all. Any number of threads at once.
 class PointTable {
  public:
+  /// Together: other workers compute points of the same table now. What they have found is looked for before a point is
+  /// made, and what is found here is cached at once.
+  enum class Work { alone, together };
+
   /// Reads what an earlier run with this identity cached. `store` may be null.
   PointTable(const ResultStore* store, const char* kind, std::string id, PointColumns columns,
-             const std::vector<FigureSpec>& specs);
+             const std::vector<FigureSpec>& specs, Work work = Work::alone);
 
   /// The point, known or made. Saves now and then.
   const StudyPoint& point(const std::vector<double>& inputs, const std::function<StudyPoint()>& make);
@@ -67,11 +72,12 @@ class PointTable {
   /// Leaves these points alone, in this order: an earlier run may have cached others.
   void restrict_to(const std::vector<std::vector<double>>& inputs) { order_ = inputs; }
   [[nodiscard]] Csv table() const;
-  [[nodiscard]] int reused() const { return reused_; }  ///< answers that were known
+  [[nodiscard]] int reused() const { return reused_; }  ///< points that were asked for and had been cached
 
  private:
-  void read(const std::vector<FigureSpec>& specs);
-  void add(const Csv& csv, const std::vector<FigureSpec>& specs);
+  void read_others();
+  void add(const Csv& csv);
+  [[nodiscard]] const StudyPoint* find(const std::vector<double>& inputs);
   void save_locked();
   [[nodiscard]] Csv table_of(const std::vector<std::vector<double>>& list) const;
 
@@ -79,13 +85,16 @@ class PointTable {
   const char* kind_;
   std::string id_;
   PointColumns columns_;
+  const std::vector<FigureSpec>& specs_;
+  Work work_;
   std::vector<std::vector<double>> order_{};  ///< as they came
   std::vector<std::vector<double>> own_{};    ///< those cached here
   std::map<std::vector<double>, StudyPoint> points_{};
+  std::set<std::vector<double>> unasked_{};  ///< cached by earlier runs or others, not yet asked for
   int reused_ = 0;
   bool changed_ = false;
   std::mutex lock_{};
-  std::chrono::steady_clock::time_point next_save_{};
+  std::chrono::steady_clock::time_point next_save_{}, next_read_{};
 };
 
 }  // namespace annulus::app

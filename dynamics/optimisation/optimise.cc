@@ -6,16 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <pagmo/algorithms/cmaes.hpp>
-#include <pagmo/algorithms/de.hpp>
-#include <pagmo/algorithms/sga.hpp>
-#include <pagmo/population.hpp>
-#include <pagmo/problem.hpp>
 #include <random>
+#include <set>
 #include <utility>
-#include <variant>
 
 #include "core/errors.h"
+#include "core/loaded_library.h"
+#include "dynamics/optimisation/optimisers.h"
 
 namespace annulus::dynamics {
 
@@ -32,10 +29,11 @@ class OptimiseLog {
 
   [[nodiscard]] double evaluate(const std::vector<double>& unit);
   [[nodiscard]] std::vector<double> point(const std::vector<double>& unit) const;
-  [[nodiscard]] std::size_t variables() const { return variables_.size(); }
+  /// The points that are not known yet, each once.
+  [[nodiscard]] std::vector<std::vector<double>> unknown(const std::vector<std::vector<double>>& units) const;
   [[nodiscard]] long asked() const { return static_cast<long>(evaluations_.size()) + repeated_; }
   [[nodiscard]] const OptimiseEvaluation* best() const;
-  [[nodiscard]] OptimiseGeneration generation(int number, const std::vector<std::vector<double>>& values) const;
+  [[nodiscard]] OptimiseGeneration generation(int number, const std::vector<double>& values) const;
   void move_to(OptimiseResult& result);
   [[nodiscard]] std::string first_trouble() const;
 
@@ -59,6 +57,16 @@ std::vector<double> OptimiseLog::point(const std::vector<double>& unit) const {
     x[i] = std::clamp(value, v.low, v.high);
   }
   return x;
+}
+
+std::vector<std::vector<double>> OptimiseLog::unknown(const std::vector<std::vector<double>>& units) const {
+  std::vector<std::vector<double>> points;
+  std::set<std::vector<double>> seen;
+  for (const auto& unit : units) {
+    auto x = point(unit);
+    if (!known_.contains(x) && seen.insert(x).second) points.push_back(std::move(x));
+  }
+  return points;
 }
 
 double OptimiseLog::evaluate(const std::vector<double>& unit) {
@@ -92,20 +100,20 @@ double OptimiseLog::evaluate(const std::vector<double>& unit) {
 
 const OptimiseEvaluation* OptimiseLog::best() const { return best_ < 0 ? nullptr : &evaluations_[best_]; }
 
-OptimiseGeneration OptimiseLog::generation(int number, const std::vector<std::vector<double>>& values) const {
+OptimiseGeneration OptimiseLog::generation(int number, const std::vector<double>& values) const {
   OptimiseGeneration g;
   g.generation = number;
   g.evaluations = static_cast<long>(evaluations_.size());
   g.best = best() ? best()->value : not_known;
   g.mean = g.worst = not_known;
   double sum = 0;
-  for (const auto& value : values) {
-    if (value[0] == penalty) {
+  for (const double value : values) {
+    if (value == penalty) {
       ++g.failed;
       continue;
     }
-    sum += value[0];
-    g.worst = std::isnan(g.worst) ? value[0] : std::max(g.worst, value[0]);
+    sum += value;
+    g.worst = std::isnan(g.worst) ? value : std::max(g.worst, value);
   }
   const auto good = static_cast<int>(values.size()) - g.failed;
   if (good > 0) g.mean = sum / good;
@@ -124,44 +132,6 @@ void OptimiseLog::move_to(OptimiseResult& result) {
   result.repeated = repeated_;
   result.failed = failed_;
   result.evaluations = std::move(evaluations_);
-}
-
-/// What pagmo copies about: a reference to the one log.
-struct UnitCubeProblem {
-  OptimiseLog* log = nullptr;
-  [[nodiscard]] pagmo::vector_double fitness(const pagmo::vector_double& unit) const { return {log->evaluate(unit)}; }
-  [[nodiscard]] std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
-    const std::size_t n = log ? log->variables() : 1;
-    return {pagmo::vector_double(n, 0.0), pagmo::vector_double(n, 1.0)};
-  }
-};
-
-using Method = std::variant<pagmo::sga, pagmo::cmaes, pagmo::de>;
-
-/// One generation at a time, so that the population can be looked at after each; the methods go on where they were.
-Method make_method(const OptimiseOptions& o, unsigned seed) {
-  constexpr unsigned one_generation = 1;
-  switch (o.optimiser) {
-    case Optimiser::genetic: {
-      const auto parents = static_cast<unsigned>(std::max(1L, std::lround(o.elite * o.population)));
-      // Distribution indices as usual for real-coded genetic algorithms (Deb): children near their parents.
-      constexpr double crossover_index = 10, mutation_index = 20;
-      return pagmo::sga(one_generation, o.crossover, crossover_index, o.mutation, mutation_index, parents, "sbx",
-                        "polynomial", "truncated", seed);
-    }
-    case Optimiser::cma_es: {
-      constexpr double by_size = -1;  // learning rates after Hansen
-      constexpr double width = 0.3;   // of the unit cube: what Hansen recommends for a known range
-      constexpr double collapsed = 1e-15;
-      return pagmo::cmaes(one_generation, by_size, by_size, by_size, by_size, width, collapsed, collapsed, true, true,
-                          seed);
-    }
-    case Optimiser::differential_evolution:
-      break;
-  }
-  constexpr double weight = 0.8, crossover = 0.9;
-  constexpr unsigned rand_1_exp = 2;
-  return pagmo::de(one_generation, weight, crossover, rand_1_exp, 0, 0, seed);
 }
 
 void check(const std::vector<OptimiseVariable>& variables, const OptimiseOptions& o) {
@@ -201,8 +171,8 @@ const char* to_text(Optimiser optimiser) {
 }
 
 OptimiseResult optimise(const std::vector<OptimiseVariable>& variables, const Objective& objective,
-                        const OptimiseOptions& options,
-                        const std::function<void(const OptimiseGeneration&)>& progress) {
+                        const OptimiseOptions& options, const std::function<void(const OptimiseGeneration&)>& progress,
+                        const Ahead& ahead) {
   check(variables, options);
   OptimiseLog log(variables, objective);
   OptimiseResult result;
@@ -211,18 +181,24 @@ OptimiseResult optimise(const std::vector<OptimiseVariable>& variables, const Ob
   std::seed_seq seeds{static_cast<std::uint32_t>(options.seed), static_cast<std::uint32_t>(options.seed >> 32)};
   unsigned drawn[2];
   seeds.generate(drawn, drawn + 2);
-  Method method = make_method(options, drawn[1]);
-  pagmo::population population(pagmo::problem(UnitCubeProblem{&log}), static_cast<std::size_t>(options.population),
-                               drawn[0]);
+  const auto& optimisers = *static_cast<const Optimisers*>(optimisers_library.table());
+  const OptimiserSeeds chance = {drawn[0], drawn[1]};
+  const auto name = [&](const std::vector<std::vector<double>>& units) {
+    if (const auto points = log.unknown(units); !points.empty()) ahead(points);
+  };
+  if (ahead) name(optimisers.first_points(options, chance, variables.size()));
+  const auto population = optimisers.start(options, chance, variables.size(),
+                                           [&log](const std::vector<double>& unit) { return log.evaluate(unit); });
   const auto note = [&](int generation) {
-    result.history.push_back(log.generation(generation, population.get_f()));
+    result.history.push_back(log.generation(generation, population->values()));
     if (progress) progress(result.history.back());
   };
   note(0);
   result.stopped = fmt::format("all {} generations", options.generations);
   for (int generation = 1; generation <= options.generations; ++generation) {
     const long asked = log.asked();
-    population = std::visit([&](const auto& m) { return m.evolve(std::move(population)); }, method);
+    if (ahead) name(population->next_points());
+    population->evolve();
     if (log.asked() == asked) {
       result.stopped = fmt::format("the optimiser had nothing left to try in generation {}", generation);
       break;

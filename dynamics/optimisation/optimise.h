@@ -70,6 +70,10 @@ struct OptimiseResult {
   std::string stopped;                          ///< why the search ended
 };
 
+/// Points that the search is about to ask for, each once, in its order, none of them known. Within a generation no
+/// point depends on the value of another: they can be computed at once.
+using Ahead = std::function<void(const std::vector<std::vector<double>>& points)>;
+
 /// The value to minimise. A point fails when InputError or SolverError is thrown (the scene or the response is not
 /// possible there) or the value is not finite. It then counts as worse than any other. Other exceptions end the search.
 using Objective = std::function<double(const std::vector<double>& x)>;
@@ -79,11 +83,13 @@ using Objective = std::function<double(const std::vector<double>& x)>;
 ///
 /// The points depend on variables, options and earlier values alone. A search is therefore resumed by repeating it with
 /// an objective that takes known points from a store. `progress` (may be empty) is called after every generation.
+/// `ahead` (may be empty) is called before every generation.
 ///
 /// Throws InputError for unusable variables or options, SolverError when every point failed.
 [[nodiscard]] OptimiseResult optimise(const std::vector<OptimiseVariable>& variables, const Objective& objective,
                                       const OptimiseOptions& options,
-                                      const std::function<void(const OptimiseGeneration&)>& progress = {});
+                                      const std::function<void(const OptimiseGeneration&)>& progress = {},
+                                      const Ahead& ahead = {});
 
 /// Evaluations (computed, failed ones included) until a value of at most `value` + `tolerance` was met; absent: never.
 [[nodiscard]] std::optional<long> evaluations_to_reach(const std::vector<OptimiseEvaluation>& evaluations, double value,

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <regex>
 
 #include "app/study/study_parts.h"
 #include "app/study/study_points.h"
@@ -140,26 +141,32 @@ const std::map<std::string, std::string>& of_one_worker() {
 BOOST_AUTO_TEST_SUITE(divided_study)
 
 BOOST_AUTO_TEST_CASE(shares_are_whole_and_even) {
-  std::vector<double> seconds(100);
-  for (std::size_t i = 0; i < seconds.size(); ++i) seconds[i] = 1 + static_cast<double>(i % 7);
-  const auto list = app::shares(seconds, 7);
+  std::vector<app::StudyPart> parts(100);
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i].seconds = 1 + static_cast<double>(i % 7);
+  const auto list = app::shares(parts, 7);
   BOOST_REQUIRE(list.size() == 7U);
   std::vector<std::size_t> all;
   double least = 1e9, most = 0;
   for (const auto& share : list) {
     BOOST_TEST(std::is_sorted(share.begin(), share.end()));
     double sum = 0;
-    for (const std::size_t i : share) sum += seconds[i];
+    for (const std::size_t i : share) sum += parts[i].seconds;
     least = std::min(least, sum);
     most = std::max(most, sum);
     all.insert(all.end(), share.begin(), share.end());
   }
   std::sort(all.begin(), all.end());
-  std::vector<std::size_t> expected(seconds.size());
+  std::vector<std::size_t> expected(parts.size());
   std::iota(expected.begin(), expected.end(), std::size_t{0});
   BOOST_TEST((all == expected));
   BOOST_TEST(most - least <= 7);  // the longest part
-  BOOST_TEST(app::shares({1, 1}, 5).back().empty());
+  BOOST_TEST(app::longest_share(parts, 7) == most);
+  parts.resize(2);
+  BOOST_TEST(app::shares(parts, 5).back().empty());
+  // All workers take part in a search, each in its share of the points.
+  parts.push_back({.study = "[optimise]", .what = "search", .seconds = 60, .workers = 20});
+  for (const auto& share : app::shares(parts, 5)) BOOST_TEST(share.back() == 2U);
+  BOOST_TEST(app::longest_share(parts, 5) == 60. / 5 + 2);
 }
 
 // Later workers read the points of earlier ones and do not keep them again: packs do not grow with their number.
@@ -189,11 +196,11 @@ BOOST_AUTO_TEST_CASE(a_pack_has_its_own_points) {
 }
 
 BOOST_AUTO_TEST_CASE(names_of_workers) {
-  const auto shard = app::Shard::parse("3/7");
-  BOOST_TEST(shard.number == 3);
-  BOOST_TEST(shard.count == 7);
+  const auto worker = app::worker_of("3/7");
+  BOOST_TEST(worker.number == 3);
+  BOOST_TEST(worker.count == 7);
   for (const char* wrong : {"", "3", "0/7", "8/7", "3/", "/7", "3/7x", "-1/7", "3/0", "a/b"})
-    BOOST_CHECK_THROW((void)app::Shard::parse(wrong), InputError);
+    BOOST_CHECK_THROW((void)app::worker_of(wrong), InputError);
 }
 
 // The merged results are those of a run, to the last byte of every table.
@@ -257,6 +264,43 @@ BOOST_AUTO_TEST_CASE(by_gnu_parallel) {
   const int status = std::system(command.c_str());
   BOOST_TEST_REQUIRE(status == 0, read_file(study.path() / "parallel.log"));
   check_equal_files(of_one_worker(), contents(study.path() / "study/results"));
+}
+
+// One search, three workers at once: together they compute each of its points about once, and nobody the whole search.
+BOOST_AUTO_TEST_CASE(workers_share_a_search) {
+  if (std::system("command -v parallel >/dev/null") != 0) {
+    BOOST_TEST_MESSAGE("skipped: no parallel");
+    return;
+  }
+  // Some 30 ms a point: the response of the motion is part of the objective.
+  const auto all = scene_of_all_studies();
+  auto scene = all.substr(0, all.find("[[sweep]]")) + all.substr(all.find("[optimise]"));
+  scene = test::replaced(scene, "[\"sun_planet_load_sharing_averaged\"]", "[\"sun_planet_peak_factor\"]");
+  scene = test::replaced(scene, "[\"genetic\", \"differential_evolution\"]", "[\"differential_evolution\"]");
+  const Planned alone("search_of_one", 1, scene), study("search_of_three", 3, scene);
+  alone.run(1, 1);
+  const int status = std::system(fmt::format("cd '{}' && ANNULUS_CACHE= ANNULUS='" ANNULUS_PROGRAM
+                                             "' JOBS=3 study/study.sh >parallel.log 2>&1",
+                                             study.path().string())
+                                     .c_str());
+  BOOST_TEST_REQUIRE(status == 0, read_file(study.path() / "parallel.log"));
+  const auto results = alone.collected();
+  check_equal_files(results, contents(study.path() / "study/results"));
+  const auto points =
+      static_cast<long>(Csv::parse(results.at("dynamics/optimise/differential_evolution_1.csv"), "points").rows.size());
+  // Each worker says how many it has computed itself.
+  const std::regex said("with ([0-9]+) points of searches");
+  const auto log = read_file(study.path() / "parallel.log");
+  long computed = 0;
+  int workers = 0;
+  for (std::sregex_iterator match(log.begin(), log.end(), said), end; match != end; ++match, ++workers) {
+    const long own = std::stol((*match)[1]);
+    BOOST_TEST(own < points);
+    computed += own;
+  }
+  BOOST_TEST(workers > 1, log);
+  BOOST_TEST(computed >= points);
+  BOOST_TEST_MESSAGE(points << " points, " << computed << " computed by three workers");
 }
 
 BOOST_AUTO_TEST_CASE(by_slurm) {

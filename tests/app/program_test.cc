@@ -50,6 +50,34 @@ BOOST_AUTO_TEST_CASE(help_version_and_wrong_arguments) {
   BOOST_TEST(missing.err.find("nowhere.toml") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(large_libraries_are_loaded_on_first_use) {
+  const test::TemporaryFolder folder("libraries");
+  put_scene(folder.path(), test::quick_scene());
+  // The loader itself says which files it opens.
+  const auto opened = [&](const std::string& arguments) {
+    const auto log = folder.path() / "opened";
+    std::filesystem::remove_all(log);
+    std::filesystem::create_directory(log);
+    const auto environment = "LD_DEBUG=files LD_DEBUG_OUTPUT='" + (log / "by").string() + "'";
+    BOOST_TEST(test::run_program(folder.path(), arguments, environment).status == 0, arguments);
+    std::string text;
+    for (const auto& entry : std::filesystem::directory_iterator(log)) text += read_file(entry.path());
+    BOOST_TEST(text.find("libannulus_core") != std::string::npos, arguments);
+    return text;
+  };
+  const std::vector<std::string> large = {
+      "libannulus_meshing", "libannulus_elements", "libannulus_optimisers", "libgmsh", "libdeal", "libpagmo"};
+  for (const auto* arguments : {"--version", "check scene.toml", "plan scene.toml", "new planetary"}) {
+    const auto text = opened(arguments);
+    for (const auto& library : large) BOOST_TEST(text.find(library) == std::string::npos, arguments << ": " << library);
+  }
+  put_scene(folder.path(), test::pinned_scene());
+  const auto solving = opened("solve scene.toml --out results --quiet");
+  for (const auto* library : {"libannulus_meshing", "libannulus_elements", "libgmsh", "libdeal"})
+    BOOST_TEST(solving.find(library) != std::string::npos, library);
+  BOOST_TEST(solving.find("libannulus_optimisers") == std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(check_plan_and_explain) {
   const test::TemporaryFolder folder("check");
   put_scene(folder.path(), test::quick_scene());

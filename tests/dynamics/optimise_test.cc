@@ -207,6 +207,42 @@ BOOST_AUTO_TEST_CASE(a_search_is_resumed_from_a_store) {
   BOOST_TEST(resumed.value == search(Optimiser::cma_es, sphere, 3, 30).value);
 }
 
+// Whoever computes several points at once is told all points of a generation, and no other one.
+BOOST_AUTO_TEST_CASE(points_are_named_before_they_are_asked_for) {
+  const std::vector<OptimiseVariable> mixed{{"a", -2, 2}, {"b", -3, 3, false, true}};
+  const auto uneven = [](const std::vector<double>& x) {
+    if (x[0] > 1.5) throw SolverError("beyond");
+    return sphere(x);
+  };
+  for (const auto optimiser : all) {
+    OptimiseOptions options;
+    options.optimiser = optimiser;
+    options.generations = 30;
+    const auto plain = optimise(mixed, uneven, options);
+    std::vector<std::vector<double>> named, asked;
+    std::size_t batches = 0;
+    const auto told = optimise(
+        mixed,
+        [&](const std::vector<double>& x) {
+          asked.push_back(x);
+          return uneven(x);
+        },
+        options, {},
+        [&](const std::vector<std::vector<double>>& points) {
+          BOOST_TEST((named == asked), to_text(optimiser) << ", generation " << batches);  // of all generations before
+          named.insert(named.end(), points.begin(), points.end());
+          ++batches;
+        });
+    BOOST_TEST((named == asked), to_text(optimiser));
+    BOOST_TEST(batches > 20U);
+    BOOST_TEST((told.x == plain.x));
+    BOOST_REQUIRE(told.evaluations.size() == plain.evaluations.size());
+    for (std::size_t i = 0; i < plain.evaluations.size(); ++i)
+      BOOST_TEST((told.evaluations[i].x == plain.evaluations[i].x));
+    BOOST_TEST(told.stopped == plain.stopped);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(wrong_variables_and_options_are_refused) {
   const auto refused = [](const std::vector<OptimiseVariable>& v, OptimiseOptions o) {
     try {

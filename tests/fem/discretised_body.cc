@@ -4,7 +4,7 @@
 
 #include "core/errors.h"
 #include "fem/condensation/lapack.h"
-#include "fem/elasticity/elastic_problem.h"
+#include "fem/dealii/elastic_problem.h"
 
 namespace annulus::tests {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/elasticity/elastic_problem.h"
+#include "fem/dealii/elastic_problem.h"
 
 /// Integrals over the cells and faces of an elastic problem.
 namespace annulus::tests {

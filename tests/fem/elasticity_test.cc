@@ -1,4 +1,4 @@
-#include "fem/elasticity/elastic_problem.h"
+#include "fem/dealii/elastic_problem.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

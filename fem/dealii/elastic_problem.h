@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to annulus_fem and its tests: the only header that shows deal.II.
+// Private to annulus_elements and its tests: the only header that shows deal.II.
 
 #include <deal.II/base/point.h>
 #include <deal.II/dofs/dof_handler.h>

@@ -1,4 +1,4 @@
-#include "fem/elasticity/elastic_problem.h"
+#include "fem/dealii/elastic_problem.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>

@@ -1,4 +1,4 @@
-#include "geometry/gmsh_session.h"
+#include "geometry/gmsh/gmsh_session.h"
 
 #include <gmsh.h>
 

@@ -1,4 +1,4 @@
-#include "geometry/sector_blocks.h"
+#include "geometry/gmsh/sector_blocks.h"
 
 #include <gmsh.h>
 
