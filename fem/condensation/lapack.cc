@@ -73,9 +73,13 @@ Eigen::MatrixXd transpose_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
   return c;
 }
 
-Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(a.rows(), b.cols());
-  add_product(a, b, c);
+Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b) {
+  require(a.cols() == b.rows(), "product of unequal sizes");
+  Eigen::MatrixXd c(a.rows(), b.cols());
+  const int m = size(a.rows()), n = size(b.cols()), k = size(a.cols());
+  const int lda = leading(a.outerStride()), ldb = leading(b.outerStride()), ldc = leading(m);
+  const double one = 1, zero = 0;
+  if (c.size() > 0) dgemm_("N", "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &ldb, &zero, c.data(), &ldc);
   return c;
 }
 

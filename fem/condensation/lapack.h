@@ -20,7 +20,8 @@ void solve_lower(const Eigen::MatrixXcd& factor, Eigen::MatrixXcd& rhs);
 /// a^T b
 [[nodiscard]] Eigen::MatrixXd transpose_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
                                                 const Eigen::Ref<const Eigen::MatrixXd>& b);
-[[nodiscard]] Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+[[nodiscard]] Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                                      const Eigen::Ref<const Eigen::MatrixXd>& b);
 /// c <- c + a b
 void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& c);
 /// y^T y, both triangles filled.

@@ -216,9 +216,15 @@ void SupportRow::add_applied(int interface, const Eigen::VectorXd& applied, Eige
   displacement += per_width_ * moved.col(0);
 }
 
-Eigen::VectorXd SupportRow::interface_displacement(int interface, const Eigen::VectorXd& forces) const {
-  Eigen::VectorXd result = at_interface(interface) * forces.head(unknowns());
-  if (plan_.applied() > 0) add_applied(tooth_number(interface), forces.tail(plan_.applied()), result);
+Eigen::MatrixXd SupportRow::interface_displacement(int interface,
+                                                   const Eigen::Ref<const Eigen::MatrixXd>& forces) const {
+  Eigen::MatrixXd result = lapack::product(at_interface(interface), forces.topRows(unknowns()));
+  if (plan_.applied() == 0) return result;
+  for (Eigen::Index i = 0; i < forces.cols(); ++i) {
+    Eigen::VectorXd displacement = result.col(i);
+    add_applied(tooth_number(interface), forces.col(i).tail(plan_.applied()), displacement);
+    result.col(i) = displacement;
+  }
   return result;
 }
 

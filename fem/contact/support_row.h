@@ -85,8 +85,11 @@ class SupportRow {
   [[nodiscard]] Eigen::VectorXd at_flank(int tooth, const Eigen::VectorXd& forces) const;
   /// Displacements of interface `interface` under unit support forces, m/N: m x forces. Formed when first asked for.
   [[nodiscard]] const Eigen::MatrixXd& at_interface(int interface) const;
-  /// Displacements of an interface under all forces, m.
-  [[nodiscard]] Eigen::VectorXd interface_displacement(int interface, const Eigen::VectorXd& forces) const;
+  /// Displacements of an interface under all forces, m; a column per column of the forces.
+  [[nodiscard]] Eigen::MatrixXd interface_displacement(int interface,
+                                                       const Eigen::Ref<const Eigen::MatrixXd>& forces) const;
+  /// The same number for an interface and for those that are whole turns away from it.
+  [[nodiscard]] int number_of(int interface) const { return tooth_number(interface); }
   /// Work of loads first ... first + count - 1 of a sector under unit support forces, per N: count x forces.
   [[nodiscard]] Eigen::MatrixXd at_loads(int sector, int first, int count) const;
 

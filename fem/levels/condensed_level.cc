@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/stopwatch.h"
 #include "fem/levels/level.h"
@@ -158,30 +159,40 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   options.half_face = bodies.face.half;
   const ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.materials,
                              bodies.slice_edges, options, bodies.rollers.get());
-  const auto solve = [&](int cycle, int phase, int load, ContactSystem::PairsCache& cache,
-                         ContactSystem::WarmStart& warm) {
+  const int middle = static_cast<int>(problem.loads.size() / 2);
+  PositionSolver solver;
+  solver.solve = [&](int cycle, int phase, int load, PositionTask& task, LoadedPosition& position) {
     ContactForces forces;
-    LoadedPosition position =
-        system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load], cache, warm, &forces);
-    using Look = StressRecovery::Look;
-    const bool middle = load == static_cast<int>(problem.loads.size() / 2);
-    const auto look = middle ? Look::around : Look::near;
-    position.planet_stress = bodies.planet_stress->stresses(forces.planet, forces.rollers, look).largest;
-    position.wheel_stress = bodies.wheel_stress->stresses(forces.wheel, forces.supports, look).largest;
-    if (middle)
+    position = system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load], task.cache,
+                            task.warm, &forces);
+    if (load == middle)
       for (const auto& gauge : bodies.gauges)
         position.gauge_strains.push_back(gauge.strains(forces.wheel, forces.supports));
-    return position;
+    task.without_stress.push_back({&position, load, std::move(forces)});
+  };
+  solver.find_stresses = [&](std::vector<PositionTask::Solved>& solved) {
+    using Look = StressRecovery::Look;
+    std::vector<StressRecovery::Forces> planet, wheel;
+    for (const auto& s : solved) {
+      const auto look = s.load == middle ? Look::around : Look::near;
+      planet.push_back({&s.forces.planet, &s.forces.rollers, look});
+      wheel.push_back({&s.forces.wheel, &s.forces.supports, look});
+    }
+    const auto of_planet = bodies.planet_stress->largest(planet), of_wheel = bodies.wheel_stress->largest(wheel);
+    for (std::size_t i = 0; i < solved.size(); ++i) {
+      solved[i].position->planet_stress = of_planet[i];
+      solved[i].position->wheel_stress = of_wheel[i];
+    }
   };
   SolvedLevel result;
   const bool one_cycle = problem.structure.repeating_teeth(problem.pair.wheel().teeth()) == 1;
   const double compared = accept ? compared_share(problem) : 1;
-  solve_positions(problem, settings, false, one_cycle, solve, part_of(progress, 0, compared), result.positions);
+  solve_positions(problem, settings, false, one_cycle, solver, part_of(progress, 0, compared), result.positions);
   result.own.planet_notch = bodies.planet_notch.error;
   result.own.wheel_notch = bodies.wheel_notch.error;
   if (accept) result.own.contact = contact_error(problem, flanks, bodies, options, result.positions);
   if (accept && accept(result)) {
-    solve_positions(problem, settings, true, one_cycle, solve, part_of(progress, compared, 1), result.positions);
+    solve_positions(problem, settings, true, one_cycle, solver, part_of(progress, compared, 1), result.positions);
     result.stress_curves = worst_curves(problem, bodies, system, result.positions);
     result.gauges = gauge_histories(problem, flanks, result.positions);
     if (settings.recovery == Recovery::fields) result.fields = worst_fields(problem, bodies, system, result.positions);

@@ -34,7 +34,7 @@ double compared_share(const LoadedMeshProblem& problem) {
 }
 
 void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,
-                     const SolvePosition& solve, const ProgressFunction& progress,
+                     const PositionSolver& solver, const ProgressFunction& progress,
                      std::vector<LoadedPosition>& positions) {
   const int loads = static_cast<int>(problem.loads.size()), phases = problem.phases;
   const int cycles = problem.structure.repeating_teeth(problem.pair.wheel().teeth());
@@ -47,18 +47,25 @@ void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings&
   for_each_task(tasks, settings.threads, [&](std::size_t task) {
     const int load = static_cast<int>(task) % loads;
     const int first_phase = chained ? 0 : static_cast<int>(task) / loads, last_phase = chained ? phases : first_phase;
-    ContactSystem::PairsCache cache;
-    ContactSystem::WarmStart warm;
+    PositionTask state;
+    const auto find_stresses = [&](std::size_t from) {
+      if (state.without_stress.size() < from || state.without_stress.empty()) return;
+      solver.find_stresses(state.without_stress);
+      state.without_stress.clear();
+    };
+    constexpr std::size_t at_once = 16;
     for (int phase = first_phase; phase <= last_phase; ++phase) {
       if (!table && !is_compared(problem, phase, load)) continue;
       for (int cycle = phase == phases ? cycles - 1 : 0; cycle < cycles; ++cycle) {
         auto& position = positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load];
         if (position.entry.stiffness_secant != 0) continue;
-        position = solve(cycle, phase, load, cache, warm);
+        solver.solve(cycle, phase, load, state, position);
+        find_stresses(at_once);
         check_deflection(problem, settings, position);
         if (load != loads / 2) position.pressure.clear();
       }
     }
+    find_stresses(1);
     const std::lock_guard guard(lock);
     ++done;
     if (progress) progress(static_cast<double>(done) / tasks);

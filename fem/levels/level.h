@@ -39,10 +39,25 @@ using AcceptLevel = std::function<bool(SolvedLevel& compared)>;
                                                const FlankContact& flanks, int level, const AcceptLevel& accept,
                                                const ProgressFunction& progress);
 
-/// Solves one position: mesh cycle, number of the phase, number of the load. Cache and warm start are those of the task
-/// that the position belongs to.
-using SolvePosition = std::function<LoadedPosition(int cycle, int phase, int load, ContactSystem::PairsCache& cache,
-                                                   ContactSystem::WarmStart& warm)>;
+/// What the positions of one task share.
+struct PositionTask {
+  /// A position whose stresses are yet to be found from its forces.
+  struct Solved {
+    LoadedPosition* position = nullptr;
+    int load = 0;  ///< its number
+    ContactForces forces{};
+  };
+  ContactSystem::PairsCache cache{};
+  ContactSystem::WarmStart warm{};
+  std::vector<Solved> without_stress{};
+};
+struct PositionSolver {
+  /// Solves one position: mesh cycle, number of the phase, number of the load.
+  std::function<void(int cycle, int phase, int load, PositionTask& task, LoadedPosition& position)> solve;
+  /// Finds what is without stress in a task, many positions at once: their products read the large matrices of a body
+  /// once. Empty: `solve` leaves nothing.
+  std::function<void(std::vector<PositionTask::Solved>& solved)> find_stresses{};
+};
 /// Reports the progress of a part of the work to `progress`, scaled to [from, to].
 [[nodiscard]] ProgressFunction part_of(const ProgressFunction& progress, double from, double to);
 /// The compared positions over all.
@@ -50,7 +65,7 @@ using SolvePosition = std::function<LoadedPosition(int cycle, int phase, int loa
 /// The positions of one level on the threads of the settings: never dependent on their number. `table`: all that
 /// `positions` does not hold yet, else the compared ones alone.
 void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,
-                     const SolvePosition& solve, const ProgressFunction& progress,
+                     const PositionSolver& solver, const ProgressFunction& progress,
                      std::vector<LoadedPosition>& positions);
 
 }  // namespace annulus::fem

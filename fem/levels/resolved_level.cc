@@ -224,13 +224,13 @@ SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedM
   const ResolvedMesh mesh(problem, settings, flanks, level);
   result.condense_seconds = condensing.seconds();
   const Stopwatch solving;
-  const auto solve = [&](int, int phase, int load, ContactSystem::PairsCache&, ContactSystem::WarmStart&) {
-    return mesh.solve(static_cast<double>(phase) / problem.phases, problem.loads[load]);
-  };
+  const PositionSolver solver{.solve = [&](int, int phase, int load, PositionTask&, LoadedPosition& position) {
+    position = mesh.solve(static_cast<double>(phase) / problem.phases, problem.loads[load]);
+  }};
   const double compared = accept ? compared_share(problem) : 1;
-  solve_positions(problem, settings, false, false, solve, part_of(progress, 0, compared), result.positions);
+  solve_positions(problem, settings, false, false, solver, part_of(progress, 0, compared), result.positions);
   if (accept && accept(result))
-    solve_positions(problem, settings, true, false, solve, part_of(progress, compared, 1), result.positions);
+    solve_positions(problem, settings, true, false, solver, part_of(progress, compared, 1), result.positions);
   result.contact_seconds = solving.seconds();
   result.unknowns = mesh.planet.regular.body.unknowns + mesh.wheel.regular.body.unknowns;
   result.half_face = mesh.face.half;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -41,16 +40,32 @@ class StressRecovery {
     Line root;  ///< of the tooth space with the largest von Mises stress, counter-clockwise; abscissa: arc length, m
     Line rim;   ///< abscissa: polar angle in the body's frame, rad, ascending
   };
+  [[nodiscard]] Result stresses(const std::vector<ToothForces>& teeth, const Eigen::VectorXd& supports) const;
+
   enum class Look { around, near };  ///< near: three teeth to either side of the forces, in any body
-  [[nodiscard]] Result stresses(const std::vector<ToothForces>& teeth, const Eigen::VectorXd& supports,
-                                Look look = Look::around) const;
+  /// Forces on teeth and supports, which are referred to.
+  struct Forces {
+    const std::vector<ToothForces>* teeth = nullptr;
+    const Eigen::VectorXd* supports = nullptr;
+    Look look = Look::around;
+  };
+  /// The largest stresses under each of many forces.
+  [[nodiscard]] std::vector<RecoveredStress> largest(const std::vector<Forces>& list) const;
 
  private:
-  /// Stresses of all lines of the looked-at sectors, as numbered among the observed loads.
-  [[nodiscard]] std::map<int, Eigen::VectorXd> by_sector(const std::vector<ToothForces>& teeth,
-                                                         const Eigen::VectorXd& supports, Look look) const;
+  /// Stresses of all lines of the looked-at sectors `first`, `first` + 1, ..., as numbered among the observed loads:
+  /// a column per sector.
+  struct Observed {
+    int first = 0;
+    Eigen::MatrixXd stress;
+  };
+  [[nodiscard]] Observed looked_at(const Forces& forces) const;
+  [[nodiscard]] std::vector<Observed> by_sector(const std::vector<Forces>& list) const;
+  enum class Lines { left_out, wanted };
+  [[nodiscard]] Result evaluated(const Forces& forces, const Observed& observed, Lines lines) const;
+  [[nodiscard]] Line whole_rim(const Observed& observed) const;
   /// Tangential and von Mises stress of the points of a line in one sector, [point][axial station].
-  [[nodiscard]] Line on_sector(const StressLine& line, const Eigen::VectorXd& observed) const;
+  [[nodiscard]] Line on_sector(const StressLine& line, const Eigen::Ref<const Eigen::VectorXd>& observed) const;
   [[nodiscard]] int number(int sector) const { return ((sector % body_.teeth) + body_.teeth) % body_.teeth; }
 
   const GearBody& body_;
