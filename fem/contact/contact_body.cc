@@ -122,9 +122,7 @@ Eigen::MatrixXd ContactBody::compliance(const FlankPatch& a, int tooth_a, const 
   return transposed ? both : Eigen::MatrixXd(both.transpose());
 }
 
-Eigen::VectorXd ContactBody::displacement(int at, const FlankPatch& patch, int tooth,
-                                          const Eigen::VectorXd& forces) const {
-  const auto [matrix, transposed] = block(at, tooth);
+Eigen::VectorXd ContactBody::loads_of(const FlankPatch& patch, const Eigen::VectorXd& forces) const {
   Eigen::VectorXd loads = Eigen::VectorXd::Zero(patch.weights.rows() * slices_);
   for (std::size_t e = 0; e < patch.elements.size(); ++e) {
     const auto [load, slice] = patch.elements[e];
@@ -132,6 +130,22 @@ Eigen::VectorXd ContactBody::displacement(int at, const FlankPatch& patch, int t
       for (Eigen::Index u = 0; u < patch.weights.rows(); ++u)
         loads[u * slices_ + slice] += force * patch.weights(u, load);
   }
+  return loads;
+}
+
+Eigen::VectorXd ContactBody::least_by_slice(const Eigen::VectorXd& displacement) const {
+  return displacement.reshaped(slices_, displacement.size() / slices_).rowwise().minCoeff();
+}
+
+Eigen::VectorXd ContactBody::least_displacement(int at, const FlankPatch& patch, int tooth,
+                                                const Eigen::VectorXd& forces) const {
+  return least_by_slice(displacement(at, patch, tooth, forces));
+}
+
+Eigen::VectorXd ContactBody::displacement(int at, const FlankPatch& patch, int tooth,
+                                          const Eigen::VectorXd& forces) const {
+  const auto [matrix, transposed] = block(at, tooth);
+  const Eigen::VectorXd loads = loads_of(patch, forces);
   const auto range = loaded_stations(patch);
   const Eigen::Index first = range.first * slices_, count = range.count * slices_;
   if (transposed) return matrix.middleRows(first, count).transpose() * loads.segment(first, count);
@@ -213,6 +227,28 @@ CondensedBody::CondensedBody(GearBody body, double base_radius, const Material& 
   motions_ = own_motions(body_);
   for (int s = 0; s < slices(); ++s) slice_length_.push_back((slice_edges[s + 1] - slice_edges[s]) * contact_slant);
   for (int d = 0; d <= body_.compliance.max_offset(); ++d) compressed_.push_back(compress(body_.compliance.block(d)));
+  for (const auto& compliance : compressed_) {
+    bounds_.push_back(bounds_of(compliance));
+    transposed_bounds_.push_back(bounds_of(compliance.transpose()));
+  }
+}
+
+CondensedBody::Bounds CondensedBody::bounds_of(const Eigen::MatrixXd& compliance) const {
+  Bounds bounds{Eigen::MatrixXd(slices(), compliance.cols()), Eigen::MatrixXd(slices(), compliance.cols())};
+  for (Eigen::Index j = 0; j < compliance.cols(); ++j) {
+    bounds.least.col(j) = least_by_slice(compliance.col(j));
+    bounds.greatest.col(j) = -least_by_slice(-compliance.col(j));
+  }
+  return bounds;
+}
+
+Eigen::VectorXd CondensedBody::least_displacement(int at, const FlankPatch& patch, int tooth,
+                                                  const Eigen::VectorXd& forces) const {
+  const auto [number, transposed] = offset(at, tooth);
+  const auto& bounds = (transposed ? transposed_bounds_ : bounds_)[static_cast<std::size_t>(number)];
+  // The weights of a load on the stations of the mesh have both signs.
+  const Eigen::VectorXd loads = loads_of(patch, forces);
+  return bounds.least * loads.cwiseMax(0) + bounds.greatest * loads.cwiseMin(0);
 }
 
 FlankLoad CondensedBody::make_load(int, double arc, double half_length) const {
@@ -223,13 +259,18 @@ FlankLoad CondensedBody::make_load(int, double arc, double half_length) const {
   return {arc, half_length, std::min(resolved, distance_to_end(body_.flank, arc))};
 }
 
-ContactBody::Block CondensedBody::block(int tooth_a, int tooth_b) const {
+CondensedBody::Offset CondensedBody::offset(int tooth_a, int tooth_b) const {
   const int n = body_.teeth;
   int d = ((tooth_a - tooth_b) % n + n) % n;
   const bool mirrored = d > n - d;  // block(-d) is the transpose of block(d)
   if (mirrored) d = n - d;
   require(d < static_cast<int>(compressed_.size()), "teeth too far apart for the formed compliance");
-  return {compressed_[d], mirrored};
+  return {d, mirrored};
+}
+
+ContactBody::Block CondensedBody::block(int tooth_a, int tooth_b) const {
+  const auto [number, mirrored] = offset(tooth_a, tooth_b);
+  return {compressed_[static_cast<std::size_t>(number)], mirrored};
 }
 
 Eigen::MatrixXd CondensedBody::near_field(const FlankPatch& patch) const {

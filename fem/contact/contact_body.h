@@ -30,12 +30,19 @@ class ContactBody {
   /// Mean displacement into the material over the elements of `a` on tooth `tooth_a` under unit forces on those of `b`,
   /// m/N, as the mesh gives it.
   [[nodiscard]] Eigen::MatrixXd compliance(const FlankPatch& a, int tooth_a, const FlankPatch& b, int tooth_b) const;
+  /// Whether there is but one compliance between two teeth, whichever of them is loaded: then it shows nothing of
+  /// reciprocity.
+  [[nodiscard]] virtual bool same_both_ways() const = 0;
   /// What is missing within one patch: the near field of loads that the mesh does not resolve.
   [[nodiscard]] virtual Eigen::MatrixXd near_field(const FlankPatch& patch) const = 0;
   /// Displacement into the material along the flank of tooth `at` under forces (N) on the elements of a patch, m, as
   /// the mesh gives it: [profile station * slices + slice].
   [[nodiscard]] Eigen::VectorXd displacement(int at, const FlankPatch& patch, int tooth,
                                              const Eigen::VectorXd& forces) const;
+  /// A lower bound, slice by slice, of the displacement() anywhere along the height of the flank, m: of a condensed
+  /// body at a fraction of its price.
+  [[nodiscard]] virtual Eigen::VectorXd least_displacement(int at, const FlankPatch& patch, int tooth,
+                                                           const Eigen::VectorXd& forces) const;
   /// Means over the slices of values at the flank ports: [profile station * slices + slice].
   [[nodiscard]] Eigen::VectorXd slice_means(const Eigen::VectorXd& at_ports) const;
   /// Displacement into the material along the flank of a tooth by unit motions of the body (x, y, rotation about the
@@ -58,6 +65,10 @@ class ContactBody {
   /// Distance to the nearer end of a flank, m.
   [[nodiscard]] double distance_to_end(const TraceBasis& flank, double arc) const;
   [[nodiscard]] double base_radius() const { return base_radius_; }
+  /// Loads of the elements of a patch, N: [profile station * slices + slice].
+  [[nodiscard]] Eigen::VectorXd loads_of(const FlankPatch& patch, const Eigen::VectorXd& forces) const;
+  /// The least value of every slice over the height: [slice].
+  [[nodiscard]] Eigen::VectorXd least_by_slice(const Eigen::VectorXd& displacement) const;
 
   struct Block {
     const Eigen::MatrixXd& compliance;  ///< compressed
@@ -108,21 +119,36 @@ class CondensedBody : public ContactBody {
                 std::optional<NearField> near_field = {}, double contact_slant = 1);
 
   [[nodiscard]] const GearBody& body() const { return body_; }
+  [[nodiscard]] bool same_both_ways() const override { return true; }
   [[nodiscard]] FlankLoad make_load(int tooth, double arc, double half_length) const override;
   /// 0: the half-plane carries what the mesh cannot.
   [[nodiscard]] double shortest_element(int, double) const override { return 0; }
   [[nodiscard]] Eigen::MatrixXd near_field(const FlankPatch& patch) const override;
+  [[nodiscard]] Eigen::VectorXd least_displacement(int at, const FlankPatch& patch, int tooth,
+                                                   const Eigen::VectorXd& forces) const override;
 
  protected:
   [[nodiscard]] Block block(int tooth_a, int tooth_b) const override;
   [[nodiscard]] Flank flank_of(int tooth) const override { return {body_, motions_, tooth}; }
 
  private:
+  /// Least and greatest compliance of every slice over the height of a flank: slice x (station, slice).
+  struct Bounds {
+    Eigen::MatrixXd least, greatest;
+  };
+  [[nodiscard]] Bounds bounds_of(const Eigen::MatrixXd& compliance) const;
+  struct Offset {
+    int number = 0;           ///< of the compressed compliance
+    bool transposed = false;  ///< it is that of the opposite offset
+  };
+  [[nodiscard]] Offset offset(int tooth_a, int tooth_b) const;
+
   GearBody body_;
   Eigen::MatrixXd motions_;
   HalfPlane half_plane_;
   std::vector<double> slice_length_;         // of the contact line, m
   std::vector<Eigen::MatrixXd> compressed_;  // per offset: (station, slice) x (station, slice)
+  std::vector<Bounds> bounds_, transposed_bounds_;
   std::optional<NearField> near_field_;
   FlankCells cells_;
 };
@@ -135,6 +161,7 @@ class ResolvedBody : public ContactBody {
   ResolvedBody(std::vector<GearBody> teeth, int first_tooth, const Eigen::MatrixXd& compliance, double base_radius,
                const std::vector<double>& slice_edges);
 
+  [[nodiscard]] bool same_both_ways() const override { return false; }
   [[nodiscard]] FlankLoad make_load(int tooth, double arc, double half_length) const override;
   /// A little longer than the cells: nothing but the mesh carries it.
   [[nodiscard]] double shortest_element(int tooth, double arc) const override;

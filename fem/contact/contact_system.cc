@@ -51,10 +51,15 @@ std::shared_ptr<const ToothPairs> ContactSystem::prepare(double phase, double lo
     for (std::size_t j = 0; j <= i; ++j) {
       const auto& o = pairs[j];
       const int other = wheel_tooth(face_.flanks(), o.index, 0);
-      // Both directions are formed on their own: what they differ by measures reciprocity (Betti). Of a pair with
-      // itself they are the same.
       const Eigen::MatrixXd block = bodies_.planet.compliance(p.planet, p.index, o.planet, o.index) +
                                     bodies_.wheel.compliance(p.wheel, tooth, o.wheel, other);
+      if (i != j && bodies_.planet.same_both_ways() && bodies_.wheel.same_both_ways()) {
+        compliance.block(start[i], start[j], size, block.cols()) = block;
+        compliance.block(start[j], start[i], block.cols(), size) = block.transpose();
+        continue;
+      }
+      // Both directions are formed on their own: what they differ by measures reciprocity (Betti). Of a pair with
+      // itself they are the same.
       const Eigen::MatrixXd opposite = i == j ? block
                                               : bodies_.planet.compliance(o.planet, o.index, p.planet, p.index) +
                                                     bodies_.wheel.compliance(o.wheel, other, p.wheel, tooth);
@@ -203,7 +208,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
       window *= 1.5;
       continue;
     }
-    const auto proof = prove_omissions(bodies_, setup, cycle, solution);
+    const auto proof = prove_omissions(bodies_, setup, cycle, solution, range_.gap_beyond);
     if (!proof.not_apart.empty()) {
       const auto before = added.size();
       added.insert(proof.not_apart.begin(), proof.not_apart.end());

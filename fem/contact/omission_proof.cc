@@ -29,6 +29,19 @@ class FlankDeflections {
   [[nodiscard]] Eigen::VectorXd approach(int pair) const {
     return (approach_ - least(planet(pair)).array() - least(wheel(pair)).array()).matrix();
   }
+  /// An upper bound of it, which nearly always suffices.
+  [[nodiscard]] Eigen::VectorXd most_approach(int pair) const {
+    const int here = wheel_tooth(bodies_.face.flanks(), pair, 0);
+    Eigen::VectorXd least_sum = Eigen::VectorXd::Zero(bodies_.planet.slices());
+    for (const auto& [loaded, force] : loaded_)
+      least_sum += bodies_.planet.least_displacement(pair, loaded->planet, loaded->index, force) +
+                   bodies_.wheel.least_displacement(here, loaded->wheel,
+                                                    wheel_tooth(bodies_.face.flanks(), loaded->index, 0), force);
+    if (planet_.row != nullptr) least_sum += least(floating(planet_, bodies_.planet, pair));
+    if (wheel_.row != nullptr)
+      least_sum += least(floating(wheel_, bodies_.wheel, wheel_tooth(bodies_.face.flanks(), pair, cycle_)));
+    return approach_ - least_sum.array();
+  }
 
  private:
   [[nodiscard]] Eigen::VectorXd planet(int pair) const {
@@ -36,7 +49,7 @@ class FlankDeflections {
                                                       loaded_.front().force);
     for (std::size_t i = 1; i < loaded_.size(); ++i)
       sum += bodies_.planet.displacement(pair, loaded_[i].pair->planet, loaded_[i].pair->index, loaded_[i].force);
-    if (planet_.row != nullptr) add_floating(planet_, bodies_.planet, pair, sum);
+    if (planet_.row != nullptr) sum += floating(planet_, bodies_.planet, pair);
     return sum;
   }
 
@@ -53,7 +66,7 @@ class FlankDeflections {
       else
         sum += part;
     }
-    if (wheel_.row != nullptr) add_floating(wheel_, bodies_.wheel, wheel_tooth(flanks, pair, cycle_), sum);
+    if (wheel_.row != nullptr) sum += floating(wheel_, bodies_.wheel, wheel_tooth(flanks, pair, cycle_));
     return sum;
   }
 
@@ -62,17 +75,18 @@ class FlankDeflections {
     const SupportRow* row = nullptr;
     Eigen::VectorXd force, motion;
   };
-  void add_floating(const Floating& floating, const ContactBody& body, int tooth, Eigen::VectorXd& sum) const {
-    sum += body.slice_means(floating.row->at_flank(tooth, floating.force));
+  [[nodiscard]] Eigen::VectorXd floating(const Floating& floating, const ContactBody& body, int tooth) const {
     const Eigen::MatrixXd plane = body.motions(tooth);
-    sum += plane * floating.motion.head<3>();
-    if (floating.motion.size() <= 3) return;
+    Eigen::VectorXd sum =
+        body.slice_means(floating.row->at_flank(tooth, floating.force)) + plane * floating.motion.head<3>();
+    if (floating.motion.size() <= 3) return sum;
     const auto& z = bodies_.face.slice_edges();
     for (Eigen::Index i = 0; i < sum.size(); ++i) {
       const auto slice = static_cast<std::size_t>(i) % (z.size() - 1);
       const double middle = (z[slice] + z[slice + 1]) / 2;
       sum[i] += middle * (plane(i, 0) * floating.motion[4] - plane(i, 1) * floating.motion[3]);
     }
+    return sum;
   }
 
   /// Least over the height of a flank, slice by slice.
@@ -95,19 +109,29 @@ class FlankDeflections {
 }  // namespace
 
 OmissionProof prove_omissions(const ContactBodies& bodies, const ToothPairs& setup, int cycle,
-                              const ComplementaritySolution& solution) {
+                              const ComplementaritySolution& solution, double gap_beyond) {
   const FlankDeflections deflections(bodies, setup, cycle, solution);
   OmissionProof proof;
   proof.closest_approach = -std::numeric_limits<double>::infinity();
   for (const auto& omitted : setup.omitted) {
-    const Eigen::VectorXd approach = deflections.approach(omitted.pair);
+    const auto closed = [&](const Eigen::VectorXd& approach, int s) {
+      return omitted.gap + bodies.face.smallest_lead_gap(s) <= approach[s];
+    };
+    Eigen::VectorXd approach = deflections.most_approach(omitted.pair);
+    if (approach.maxCoeff() >= gap_beyond ||
+        std::any_of(omitted.slices.begin(), omitted.slices.end(), [&](int s) { return closed(approach, s); }))
+      approach = deflections.approach(omitted.pair);
     proof.closest_approach = std::max(proof.closest_approach, approach.maxCoeff());
     for (const int s : omitted.slices)
-      if (omitted.gap + bodies.face.smallest_lead_gap(s) <= approach[s]) proof.not_apart.emplace(omitted.pair, s);
+      if (closed(approach, s)) proof.not_apart.emplace(omitted.pair, s);
   }
-  for (const int outermost : {setup.first_pair, setup.last_pair})
-    if (std::none_of(setup.omitted.begin(), setup.omitted.end(), [&](const auto& o) { return o.pair == outermost; }))
-      proof.closest_approach = std::max(proof.closest_approach, deflections.approach(outermost).maxCoeff());
+  for (const int outermost : {setup.first_pair, setup.last_pair}) {
+    if (std::any_of(setup.omitted.begin(), setup.omitted.end(), [&](const auto& o) { return o.pair == outermost; }))
+      continue;
+    double approach = deflections.most_approach(outermost).maxCoeff();
+    if (approach >= gap_beyond) approach = deflections.approach(outermost).maxCoeff();
+    proof.closest_approach = std::max(proof.closest_approach, approach);
+  }
   return proof;
 }
 
