@@ -104,8 +104,8 @@ void leave_out_course_of_solve(MeshResult& result);
 /// Packs the finite-element result of a model into its tables and pictures.
 [[nodiscard]] MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved);
 /// The stiffness a scene gives instead: a table read from its file, or the wave sampled over one cycle.
-[[nodiscard]] MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene,
-                                         double contact_ratio, double nominal_load);
+[[nodiscard]] MeshResult prescribed_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene,
+                                              double contact_ratio, double nominal_load);
 
 /// Writes lte_, stiffness_, pins_, ... <mesh>.csv, the picture and the bodies into `folder` (OUT/<ring>). What a result
 /// does not have leaves no file behind.

@@ -19,13 +19,13 @@ bool lead_modified(const Scene& scene, const GearInput& gear) {
   return geometry::modified_along_face(gear_parameters(scene, gear, geometry::GearKind::external));
 }
 
-void set_given(MeshModel& model, StiffnessShape given) {
+void set_prescribed(MeshModel& model, StiffnessShape shape) {
   constexpr const char* names[] = {"computed", "constant", "harmonic",   "rectangular",
                                    "table",    "iso_6336", "closed_form"};
-  model.fidelity = "given";
+  model.fidelity = "prescribed";
   model.reason = fmt::format("the scene prescribes the stiffness (mesh.{}: {})", model.mesh,
-                             names[static_cast<std::size_t>(given)]);
-  model.repeats = "as given";
+                             names[static_cast<std::size_t>(shape)]);
+  model.repeats = "as prescribed";
 }
 
 void add_topography(ContentId& id, const std::string& name, const geometry::FlankTopography& flank) {
@@ -182,7 +182,7 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
   model.planet_body = mesh.planet_name;
   model.wheel_body = mesh.wheel_name;
   if (mesh.input.stiffness != StiffnessShape::computed) {
-    set_given(model, mesh.input.stiffness);
+    set_prescribed(model, mesh.input.stiffness);
     return model;
   }
   const auto face = mesh.pair.common_face();

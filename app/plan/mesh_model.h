@@ -28,8 +28,8 @@ struct MeshModel : fem::MeshChoice {
   std::string title{};                                    ///< for people: "sun-planet mesh"
   std::string ring{};                                     ///< empty for the sun mesh, which all rings share
   std::string planet_body{"planet"}, wheel_body{"ring"};  ///< names of its bodies: "pinion"; "sun", "wheel"
-  std::string fidelity{};                                 ///< fem::fidelity_name(), or "given" by the scene
-  std::optional<fem::LoadedMeshProblem> problem{};        ///< absent when the stiffness is given
+  std::string fidelity{};                                 ///< fem::fidelity_name(), or "prescribed" by the scene
+  std::optional<fem::LoadedMeshProblem> problem{};        ///< absent when the stiffness is prescribed
 
   [[nodiscard]] bool computed() const { return problem.has_value(); }
   /// Computed with finite elements, and not by formulas alone.

@@ -74,7 +74,7 @@ std::vector<std::string> input_files(const Scene& scene) {
   return names;
 }
 
-StiffnessTable given_table(const Scene& scene, const std::string& mesh, const std::string& name) {
+StiffnessTable prescribed_table(const Scene& scene, const std::string& mesh, const std::string& name) {
   return with_file(scene, "mesh." + mesh + ".file", name,
                    [&](const std::filesystem::path& file) { return import_table(file, mesh); });
 }
@@ -84,7 +84,7 @@ void check_files(const Scene& scene) {
   for (const auto& input : scene.inputs) {
     const auto* name = std::get_if<std::string>(&input.value);
     if (name == nullptr || !input.key.starts_with(head) || !input.key.ends_with(tail)) continue;
-    (void)given_table(scene, input.key.substr(head.size(), input.key.size() - head.size() - tail.size()), *name);
+    (void)prescribed_table(scene, input.key.substr(head.size(), input.key.size() - head.size() - tail.size()), *name);
   }
   if (scene.reference)
     with_file(scene, "reference", *scene.reference, [](const auto& file) { return read_reference(file); });

@@ -22,7 +22,7 @@ namespace annulus::app {
 
 /// The stiffness table in the file that [mesh.NAME] names. Throws InputError, with place and key, when it cannot be
 /// used.
-[[nodiscard]] StiffnessTable given_table(const Scene& scene, const std::string& mesh, const std::string& name);
+[[nodiscard]] StiffnessTable prescribed_table(const Scene& scene, const std::string& mesh, const std::string& name);
 
 /// Reads every file the scene names, so that a bad one is refused before time is spent. Throws InputError.
 void check_files(const Scene& scene);

@@ -37,7 +37,7 @@ std::vector<Series> cycle_series(const std::string& name, const MeshResult& mesh
   const auto& table = mesh.table;
   const bool single = table.positions() == 1;
   const int phases = table.phases(), total = phases * table.positions();
-  const int pieces = mesh.model.fidelity == "given" ? 1 : single ? 10 : 4;
+  const int pieces = mesh.model.fidelity == "prescribed" ? 1 : single ? 10 : 4;
   Series solved{.colour = colour, .style = Series::Style::dots};
   std::vector<double> error;
   for (int i = 0; i < total; ++i) {

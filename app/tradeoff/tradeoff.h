@@ -113,7 +113,7 @@ struct TradeLists {
 
 /// Runs everything, each setting in a process of its own, one after the other with options.threads threads, below
 /// OUT/tradeoff; what an earlier run measured there is taken over; what the planner chooses for several accuracies is
-/// measured beside them. Where a stiffness is given, the motion alone is traded. Throws InputError where there
+/// measured beside them. Where a stiffness is prescribed, the motion alone is traded. Throws InputError where there
 /// is nothing to trade, and what making the geometry throws.
 [[nodiscard]] TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options, const TradeLists& lists = {});
 

@@ -56,7 +56,7 @@ inline std::string computed_set() {
 inline std::vector<GoodScene> good_scenes() {
   constexpr const char* damping = "dynamics.mesh_damping_ratio";
   constexpr const char* support = "dynamics.support_damping_ratio";
-  return {{"planetary, given stiffness", "planetary",
+  return {{"planetary, prescribed stiffness", "planetary",
            quick_scene() + studies_of(damping, support, "sun_planet_load_sharing_instantaneous")},
           {"planetary, computed", "planetary", computed_set()},
           {"helical pair", "helical_pair",

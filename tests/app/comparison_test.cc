@@ -14,7 +14,7 @@ namespace annulus {
 
 namespace {
 
-/// A run of two rings with given constant stiffnesses, without dynamics; `error` is that of every table entry.
+/// A run of two rings with prescribed constant stiffnesses, without dynamics; `error` is that of every table entry.
 app::RunResult run_of(double stiff, double soft, double error) {
   auto scene = app::parse_scene(test::quick_scene(), "s");
   scene.rings.push_back(scene.rings.front());

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Studies of every kind on given stiffnesses: a second of work.
+/// Studies of every kind on prescribed stiffnesses: a second of work.
 std::string scene_of_all_studies() {
   auto stage = test::replaced(test::quick_scene(), "planet_eccentricity_um", "planet_pin_position_error_um");
   stage = test::replaced(stage, "planet_eccentricity_phase_deg", "planet_pin_position_error_phase_deg");

@@ -281,18 +281,18 @@ BOOST_AUTO_TEST_CASE(files_are_those_of_the_inputs_whatever_happened_to_them) {
   BOOST_TEST(!app::computed_stiffness(model, "", foreign).reused);
 }
 
-BOOST_AUTO_TEST_CASE(given_waves_are_sampled) {
+BOOST_AUTO_TEST_CASE(prescribed_waves_are_sampled) {
   const auto scene = app::parse_scene(test::quick_scene(), "s");
   const auto geometry = app::make_geometry(scene);
   const auto model = app::sun_mesh_model(scene, geometry);
   auto input = scene.sun_planet;
-  const auto harmonic = app::given_stiffness(model, input, scene, 1.5, 1e4);
+  const auto harmonic = app::prescribed_stiffness(model, input, scene, 1.5, 1e4);
   // The mean of a cosine over equidistant samples of its period vanishes to rounding.
   BOOST_TEST(harmonic.mean_stiffness().value == 1.364e9, boost::test_tools::tolerance(1e-13));
   BOOST_TEST(harmonic.table.at(0, 0, 0).stiffness_secant == 1.364e9 * 1.2258, boost::test_tools::tolerance(1e-14));
   input.stiffness = app::StiffnessShape::rectangular;
   input.duty = 0.5;
-  const auto rectangular = app::given_stiffness(model, input, scene, 1.5, 1e4);
+  const auto rectangular = app::prescribed_stiffness(model, input, scene, 1.5, 1e4);
   BOOST_TEST(rectangular.mean_stiffness().value == 1.364e9, boost::test_tools::tolerance(1e-13));
 }
 

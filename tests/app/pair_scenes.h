@@ -4,8 +4,8 @@
 
 namespace annulus::test {
 
-/// The pair of the manufacturing-error paper with given stiffness: nothing elastic has to be solved. Made of lines that
-/// tests replace.
+/// The pair of the manufacturing-error paper with prescribed stiffness: nothing elastic has to be solved. Made of lines
+/// that tests replace.
 inline std::string quick_pair() {
   return R"(title = "Quick pair"
 [stage]

@@ -368,7 +368,7 @@ BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_dofs) {
   BOOST_TEST(!kept("ring u"));
   BOOST_TEST(!kept("carrier x, y"));
   BOOST_TEST(plan.contact_problems() == 0L);
-  BOOST_TEST(plan.meshes.front().fidelity == "given");
+  BOOST_TEST(plan.meshes.front().fidelity == "prescribed");
 }
 
 // 82 splines: each choice of a model solves the ring by formulas. Once per load that the sweep gives, and not some

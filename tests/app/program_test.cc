@@ -173,7 +173,7 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
   const auto json = nlohmann::json::parse(read_file(folder.path() / "out/summary.json"));
   BOOST_TEST(json["title"] == "Quick");
   const auto& ring = json["rings"]["held"];
-  BOOST_TEST(ring["model"] == "given");
+  BOOST_TEST(ring["model"] == "prescribed");
   BOOST_TEST(ring["ring_planet"]["mean_stiffness_N_per_m"]["value"].get<double>() == 1.87e9,
              boost::test_tools::tolerance(1e-13));
   BOOST_TEST(std::abs(ring["ring_planet"]["contact_ratio"].get<double>() - 1.5826) < 5e-5);

@@ -7,7 +7,7 @@
 
 namespace annulus::test {
 
-/// A complete scene with given stiffness: nothing elastic has to be solved. Made of lines that tests replace.
+/// A complete scene with prescribed stiffness: nothing elastic has to be solved. Made of lines that tests replace.
 inline std::string quick_scene() {
   return R"(title = "Quick"
 [stage]
@@ -127,7 +127,8 @@ inline std::string replaced(std::string text, const std::string& what, const std
   return text.replace(at, what.size(), by);
 }
 
-/// A ring on pins, its mesh solved in the plane; the sun's stiffness is given. Two ring positions and few mesh cycles.
+/// A ring on pins, its mesh solved in the plane; the sun's stiffness is prescribed. Two ring positions and few mesh
+/// cycles.
 inline std::string pinned_scene() {
   auto text = replaced(quick_scene(), "structure = \"traditional\"\n",
                        "structure = \"pinned\"\npins = 81\npin_diameter_mm = 15.5\n");

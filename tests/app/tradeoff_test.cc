@@ -251,8 +251,8 @@ std::map<std::string, double> motion_errors(const app::VariantTrade& variant) {
   return errors;
 }
 
-// Where the stiffness is given there is one table, and the motion on it is what can be traded.
-BOOST_AUTO_TEST_CASE(given_stiffness_leaves_the_motion, *in_a_process_of_its_own) {
+// Where the stiffness is prescribed there is one table, and the motion on it is what can be traded.
+BOOST_AUTO_TEST_CASE(prescribed_stiffness_leaves_the_motion, *in_a_process_of_its_own) {
   log::set_level(log::Level::quiet);
   const test::TemporaryFolder folder("tradeoff_given");
   const auto text = test::replaced(test::quick_scene(), "mesh_cycles = 110\n", "");
@@ -269,7 +269,7 @@ BOOST_AUTO_TEST_CASE(given_stiffness_leaves_the_motion, *in_a_process_of_its_own
 BOOST_AUTO_TEST_CASE(a_pair_is_traded_too, *in_a_process_of_its_own) {
   log::set_level(log::Level::quiet);
   const test::TemporaryFolder folder("tradeoff_pair");
-  // Its motion on a given stiffness.
+  // Its motion on a prescribed stiffness.
   const auto given = app::measure_tradeoff(app::parse_scene(test::quick_pair(), "s.toml"),
                                            {.out = folder.path() / "given", .threads = 1});
   BOOST_TEST_REQUIRE(given.variants.size() == 1U);

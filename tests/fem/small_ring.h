@@ -38,7 +38,7 @@ enum class SmallHeld { outside, sleeve, floating };
 /// `plan`: supports of a floating ring.
 SmallRing small_ring(int teeth, SmallHeld held, const fem::MotionOrder& motions,
                      const fem::SupportPlan* plan = nullptr);
-/// Pins of given stiffness around the small ring.
+/// Pins of prescribed stiffness around the small ring.
 fem::SupportPlan small_ring_pins(int teeth, std::vector<double> angles, double radial, double tangential,
                                  bool unilateral, double clearance = 0);
 

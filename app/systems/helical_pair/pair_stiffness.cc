@@ -101,7 +101,7 @@ MeshResult pair_stiffness(const Scene& scene, const PairGeometry& geometry, cons
             .table = closed_form_pair_table(scene, geometry, geometry.transverse_force),
             .nominal = fem::nominal_load_index};
   if (input.stiffness == StiffnessShape::table)
-    return given_stiffness(model, input, scene, geometry.gears.contact_ratio(), geometry.transverse_force);
+    return prescribed_stiffness(model, input, scene, geometry.gears.contact_ratio(), geometry.transverse_force);
   return {.model = model, .table = {}, .tabulated = false};
 }
 
@@ -156,7 +156,7 @@ std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeomet
       value = geometry.to_normal() *
               mean_secant(*mesh.table, std::clamp(geometry.transverse_force, loads.front(), loads.back()));
     }
-    list.push_back({"given", value, not_known, mesh.model.reason, true});
+    list.push_back({"prescribed", value, not_known, mesh.model.reason, true});
   }
   return list;
 }

@@ -12,10 +12,10 @@
 /// Where the stiffness of a helical pair's mesh comes from.
 ///
 /// Tables (finite elements, closed form, file) hold forces and transmission errors along the transverse line of action,
-/// as all tables of annulus do; the lumped model and every given stiffness those along the normal of the flanks.
+/// as all tables of annulus do; the lumped model and every prescribed stiffness those along the normal of the flanks.
 namespace annulus::app {
 
-/// The mesh as a solid finite-element model, or "given" where something else is asked for.
+/// The mesh as a solid finite-element model, or "prescribed" where something else is asked for.
 [[nodiscard]] MeshModel pair_mesh_model(const Scene& scene, const PairGeometry& geometry);
 /// Why the plane and closed-form models cannot represent it; empty when they can.
 [[nodiscard]] std::string pair_solid_reason(const Scene& scene, const PairGeometry& geometry);
@@ -50,7 +50,7 @@ struct PairMesh {
 
 /// A mean stiffness at the operating point, N/m along the normal.
 struct MeanStiffness {
-  std::string source;         ///< "iso_6336", "closed_form", "computed", "given"
+  std::string source;         ///< "iso_6336", "closed_form", "computed", "prescribed"
   double value = 0;           ///< NaN: not available
   double error_relative = 0;  ///< NaN: not controlled
   std::string note;           ///< what it is, or why it is not available

@@ -42,7 +42,7 @@ struct PinEffect {
   double loaded_pin_teeth = 0;  ///< that place: ring teeth from the contact, counter-clockwise positive
   double stiffest_teeth = 0;    ///< contact from the nearest pin where the mean over a tooth is stiffest
 };
-/// Nothing for a ring without pins, or whose stiffness was given.
+/// Nothing for a ring without pins, or whose stiffness was prescribed.
 [[nodiscard]] std::optional<PinEffect> pin_effect(const RunResult& result, std::size_t ring);
 
 }  // namespace annulus::app

@@ -85,8 +85,8 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
   const bool sun = model.mesh == sun_planet;
   if (!model.computed()) {
     const auto& pair = sun ? geometry.sun_mesh() : geometry.rings.front().set.ring_mesh();
-    return given_stiffness(model, in_transverse_section(sun ? scene.sun_planet : scene.ring_planet, pair), scene,
-                           pair.contact_ratio(), geometry.operating_point.mean_mesh_force);
+    return prescribed_stiffness(model, in_transverse_section(sun ? scene.sun_planet : scene.ring_planet, pair), scene,
+                                pair.contact_ratio(), geometry.operating_point.mean_mesh_force);
   }
   MeshResult result;
   about(scene, sun ? "sun" : "ring '" + model.ring + "'",

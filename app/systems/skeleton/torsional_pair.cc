@@ -166,7 +166,7 @@ class TorsionalPair final : public GearSystem {
 
   [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
     if (mesh.computed()) return computed_stiffness(mesh, mesh.ring, options);
-    return given_stiffness(mesh, scene().pinion_wheel, scene(), gears().contact_ratio(), mean_mesh_force());
+    return prescribed_stiffness(mesh, scene().pinion_wheel, scene(), gears().contact_ratio(), mean_mesh_force());
   }
 
   [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t /*variant*/,

@@ -116,23 +116,23 @@ MeshModel arc_pins_model(const Scene& scene) {
     model.reason = "line contact of pins and concave arcs, shared by all pins on the loaded side";
     model.repeats = "equal teeth on equal pins: one mesh cycle is enough";
   } else {
-    model.fidelity = "given";
+    model.fidelity = "prescribed";
     model.reason = "the scene prescribes the stiffness (mesh.arc_pins)";
-    model.repeats = "as given";
+    model.repeats = "as prescribed";
   }
   return model;
 }
 
-MeshResult given_sun_result(const Scene& scene, const MeshModel& model) {
-  return given_stiffness(model, scene.sun_planet, scene, sun_planet_pair(scene).contact_ratio(),
-                         two_k_v_kinematics(scene).mean_sun_mesh_force());
+MeshResult prescribed_sun_result(const Scene& scene, const MeshModel& model) {
+  return prescribed_stiffness(model, scene.sun_planet, scene, sun_planet_pair(scene).contact_ratio(),
+                              two_k_v_kinematics(scene).mean_sun_mesh_force());
 }
 
 MeshResult arc_pins_result(const Scene& scene) {
   const auto stage = two_k_v_kinematics(scene);
   const auto model = arc_pins_model(scene);
   if (!is_computed(scene.arc_pins))
-    return given_stiffness(model, scene.arc_pins, scene, 0, stage.mean_arc_mesh_force());
+    return prescribed_stiffness(model, scene.arc_pins, scene, 0, stage.mean_arc_mesh_force());
   const auto mesh = arc_tooth_mesh(scene);
   require(mesh.has_value(), "a checked scene has the dimensions of its arc teeth");
   std::vector<double> torques;

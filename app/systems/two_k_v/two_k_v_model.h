@@ -18,7 +18,7 @@ namespace annulus::app {
 /// mesh, and InputError when neighbouring planets foul.
 [[nodiscard]] geometry::GearPair sun_planet_pair(const Scene& scene);
 
-/// Everything that needs no solving: gears, arc teeth, the files of given tables. Throws InputError.
+/// Everything that needs no solving: gears, arc teeth, the files of prescribed tables. Throws InputError.
 void check_two_k_v(const Scene& scene);
 
 /// Teeth, radii, operating point and nothing else: for speeds, forces and the ratio.
@@ -34,9 +34,9 @@ void check_two_k_v(const Scene& scene);
 /// Of the contact formulas; `model` "line_contact" where it is computed.
 [[nodiscard]] MeshModel arc_pins_model(const Scene& scene);
 
-/// The sun mesh where its stiffness is given.
-[[nodiscard]] MeshResult given_sun_result(const Scene& scene, const MeshModel& model);
-/// The arc mesh from the contact formulas or as given. Quick.
+/// The sun mesh where its stiffness is prescribed.
+[[nodiscard]] MeshResult prescribed_sun_result(const Scene& scene, const MeshModel& model);
+/// The arc mesh from the contact formulas or as prescribed. Quick.
 [[nodiscard]] MeshResult arc_pins_result(const Scene& scene);
 
 /// Stiffness of both meshes.

@@ -38,7 +38,7 @@ std::vector<RunVariant> two_k_v_run_variants(const Scene& scene) {
 MeshResult two_k_v_stiffness(const Scene& scene, const MeshModel& mesh, const RunOptions& options) {
   if (mesh.mesh == arc_pins)
     return arc_pins_result(mesh.fidelity == arc_pins_model(scene).fidelity ? scene : *compared_scene(scene));
-  if (!mesh.computed()) return given_sun_result(scene, mesh);
+  if (!mesh.computed()) return prescribed_sun_result(scene, mesh);
   return computed_stiffness(mesh, two_k_v_sun_model(scene).computed() ? "" : compared_folder, options);
 }
 

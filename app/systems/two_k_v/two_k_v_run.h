@@ -58,7 +58,7 @@ struct TwoKVResult : RunView {
 
 /// What a plan reports of a reducer (two_k_v_plan.cc).
 void describe_two_k_v(const Scene& scene, Plan& plan);
-/// The meshes that are solved or given: where the scene compares, those of the comparison.
+/// The meshes that are solved or prescribed: where the scene compares, those of the comparison.
 [[nodiscard]] std::vector<MeshModel> two_k_v_meshes(const Scene& scene);
 /// One for the scene, one for a comparison if it asks for it.
 [[nodiscard]] std::vector<PlannedResponse> two_k_v_responses(const Scene& scene);

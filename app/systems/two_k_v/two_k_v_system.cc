@@ -98,7 +98,7 @@ class TwoKVSystem final : public GearSystem {
     const auto all = run_variants();
     for (std::size_t i = 0; i < all.size(); ++i) {
       const auto& arc = *run.tables_of(i).back();
-      if (!arc.tabulated || arc.model.fidelity == "given") continue;
+      if (!arc.tabulated || arc.model.fidelity == "prescribed") continue;
       std::filesystem::create_directories(options.out / all[i].folder);
       arc.table.write_csv(options.out / all[i].folder / "stiffness_arc_pins.csv");
     }

@@ -42,7 +42,7 @@ PageTable means_table(const PairRunResult& result) {
 Blocks means_sentence(const PairRunResult& result) {
   std::vector<const MeanStiffness*> known;
   for (const auto& s : result.stiffnesses)
-    if (std::isfinite(s.value) && s.source != "given") known.push_back(&s);
+    if (std::isfinite(s.value) && s.source != "prescribed") known.push_back(&s);
   if (known.size() < 2) return {};
   std::sort(known.begin(), known.end(), [](const auto* a, const auto* b) { return a->value < b->value; });
   const auto &low = *known.front(), &high = *known.back();
@@ -95,7 +95,7 @@ Pictures cycle_picture(const PairRunResult& result) {
           "closed form", 1,
           s.taken ? *result.mesh.table : closed_form_pair_table(result.scene, geometry, geometry.transverse_force),
           geometry));
-    if (s.taken && (s.source == "iso_6336" || (s.source == "given" && !result.mesh.table))) {
+    if (s.taken && (s.source == "iso_6336" || (s.source == "prescribed" && !result.mesh.table))) {
       plot.series.push_back(prescribed_wave(std::string(source_words(s.source)) + ", applied", s.value, input));
     } else if (s.source == "iso_6336") {
       plot.series.push_back(over_cycle("ISO 6336-1 mean", 6, 1, [&](double) { return s.value; }));

@@ -25,7 +25,7 @@ Blocks arc_pins_blocks(const TwoKVResult& result) {
   Plot over_load{.title = "Mean stiffness over load", .x_label = "torque on one arc gear, N m", .y_label = "N/µm"};
   for (const auto& [name, shown] : shown_cases(result)) {
     const auto& mesh = shown->tables.arc;
-    if (mesh.model.fidelity == "given" || mesh.table.loads().size() < 2) continue;
+    if (mesh.model.fidelity == "prescribed" || mesh.table.loads().size() < 2) continue;
     Series computed{.label = name, .colour = 2}, printed{.label = "paper's formula", .colour = 6, .dashed = true};
     for (std::size_t i = 0; i < mesh.table.loads().size(); ++i) {
       const double torque = mesh.table.loads()[i] * arc.pitch_radius();

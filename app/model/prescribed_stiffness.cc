@@ -28,7 +28,7 @@ int samples_of(const MeshInput& input) {
   return best;
 }
 
-/// One cycle of a given wave, as the dynamics sees it; for figures and plots only.
+/// One cycle of a prescribed wave, as the dynamics sees it; for figures and plots only.
 StiffnessTable sampled(const std::string& mesh, const MeshInput& input, double load) {
   constexpr double rounding = 1e-12;
   const int samples = samples_of(input);
@@ -50,10 +50,10 @@ StiffnessTable sampled(const std::string& mesh, const MeshInput& input, double l
 
 }  // namespace
 
-MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene, double contact_ratio,
-                           double nominal_load) {
+MeshResult prescribed_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene,
+                                double contact_ratio, double nominal_load) {
   if (input.stiffness == StiffnessShape::table) {
-    auto table = given_table(scene, model.mesh, *input.file);
+    auto table = prescribed_table(scene, model.mesh, *input.file);
     const auto nominal = nearest_load(table, nominal_load);
     return {.model = model, .contact_ratio = contact_ratio, .table = std::move(table), .nominal = nominal};
   }
