@@ -14,8 +14,8 @@ namespace annulus::app {
 
 /// Something decided before computing, and why.
 struct Decision {
-  std::string what;    ///< "elements"
-  std::string choice;  ///< "quadratic"
+  std::string subject;  ///< "elements"
+  std::string choice;   ///< "quadratic"
   std::string reason;
 };
 /// All that is decided about a mesh.

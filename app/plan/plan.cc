@@ -25,12 +25,12 @@ Quantity quantity(std::string key, double value, std::string meaning) {
 }
 
 DofPlan supported_dof(std::string name, const std::string& support, double given, double effective, const char* unit) {
-  const bool kept = std::isfinite(effective);
-  if (!std::isfinite(given)) return {std::move(name), kept, fmt::format("rigid {}: dropped", support)};
-  if (given == 0) return {std::move(name), kept, fmt::format("no {}: free to move", support)};
-  return {std::move(name), kept,
+  const bool retained = std::isfinite(effective);
+  if (!std::isfinite(given)) return {std::move(name), retained, fmt::format("rigid {}: dropped", support)};
+  if (given == 0) return {std::move(name), retained, fmt::format("no {}: free to move", support)};
+  return {std::move(name), retained,
           fmt::format("{} of {} {}{}", support, to_text(given), unit,
-                      kept ? "" : " deflects by less than a thousandth of the accuracy: dropped")};
+                      retained ? "" : " deflects by less than a thousandth of the accuracy: dropped")};
 }
 
 bool Plan::computes() const {

@@ -24,7 +24,7 @@ struct Quantity {
 /// A DOF of the lumped model, or a group of equal ones.
 struct DofPlan {
   std::string name;  ///< "sun x, y"
-  bool kept = true;
+  bool retained = true;
   std::string reason;
 };
 /// A DOF that stands on a support ("axial bearing") of stiffness `given`, and is dropped where that counts as rigid:

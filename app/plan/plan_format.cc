@@ -14,12 +14,14 @@
 namespace annulus::app {
 
 static void to_json(Json& json, const Decision& d) {
-  json = {{"what", d.what}, {"choice", d.choice}, {"reason", d.reason}};
+  json = {{"subject", d.subject}, {"choice", d.choice}, {"reason", d.reason}};
 }
-static void to_json(Json& json, const DofPlan& d) { json = {{"name", d.name}, {"kept", d.kept}, {"reason", d.reason}}; }
+static void to_json(Json& json, const DofPlan& d) {
+  json = {{"name", d.name}, {"retained", d.retained}, {"reason", d.reason}};
+}
 static void to_json(Json& json, const StudyPlan& s) {
   json = {{"name", s.name},
-          {"what", s.what},
+          {"description", s.description},
           {"responses", s.responses},
           {"stiffness_tables", s.tables},
           {"seconds_on_one_core", s.seconds}};
@@ -39,7 +41,7 @@ std::string decision_lines(const std::vector<Decision>& list) {
   for (const auto& d : list) longest = std::max(longest, d.choice.size());
   std::string text;
   for (const auto& d : list)
-    text += "    " + left_aligned(d.what, 26) + left_aligned(d.choice, std::min<std::size_t>(longest, 30) + 2) +
+    text += "    " + left_aligned(d.subject, 26) + left_aligned(d.choice, std::min<std::size_t>(longest, 30) + 2) +
             d.reason + "\n";
   return text;
 }
@@ -86,7 +88,7 @@ std::string cost_lines(const Plan& plan) {
 std::string study_lines(const Plan& plan) {
   std::string text = plan.studies.empty() ? "" : "\nStudies\n";
   for (const auto& s : plan.studies) {
-    text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.what, s.responses,
+    text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.description, s.responses,
                         plan.rings.empty() ? "" : " of all rings", duration_text(s.seconds));
     text += s.tables ? fmt::format("; {} own stiffness tables\n", s.tables) : ", on the tables of the scene\n";
   }
@@ -132,10 +134,10 @@ std::string overview(const Plan& plan) {
                              : "") +
             mesh.reason + "\n";
   if (!plan.motion.empty()) text += "\nMotion\n";
-  for (const auto& d : plan.motion) text += "  " + left_aligned(d.what, 36) + d.choice + "\n";
+  for (const auto& d : plan.motion) text += "  " + left_aligned(d.subject, 36) + d.choice + "\n";
   std::vector<std::string> dropped;
   for (const auto& f : plan.dofs)
-    if (!f.kept) dropped.push_back(f.name);
+    if (!f.retained) dropped.push_back(f.name);
   if (!dropped.empty())
     text +=
         "  " + left_aligned("rigid, degrees of freedom dropped", 36) + fmt::format("{}\n", fmt::join(dropped, "; "));
@@ -157,7 +159,7 @@ std::string to_text(const Plan& plan) {
   if (!plan.dofs.empty())
     text += plan.motion.empty() ? "\nDegrees of freedom\n" : "\nLumped model\n" + decision_lines(plan.motion);
   for (const auto& f : plan.dofs)
-    text += fmt::format("  {} {} {}\n", f.kept ? "retained" : "dropped ", left_aligned(f.name, 18), f.reason);
+    text += fmt::format("  {} {} {}\n", f.retained ? "retained" : "dropped ", left_aligned(f.name, 18), f.reason);
 
   text += study_lines(plan) + "\nRemarks\n";
   for (const auto& remark : plan.remarks) text += "  " + remark + "\n";

@@ -59,7 +59,7 @@ Scene planned_scene(const fs::path& folder) {
 }
 
 /// Names of parts: those that a worker has computed stand in its pack, one per line.
-std::string name_of(const StudyPart& part) { return part.study + ": " + part.what; }
+std::string name_of(const StudyPart& part) { return part.study + ": " + part.description; }
 
 std::string id_of(const Scene& scene) { return run_id(scene, {}); }
 
@@ -81,11 +81,11 @@ std::string points_csv(const std::vector<StudyPart>& parts, const std::vector<st
   for (std::size_t i = 0; i < by_worker.size(); ++i)
     for (const std::size_t place : by_worker[i])
       if (parts[place].workers == 1) worker[place] = std::to_string(i + 1);
-  std::string text =
-      fmt::format("# annulus_version: {}\npart,predicted_s,shard_of_{},study,what\n", version(), by_worker.size());
+  std::string text = fmt::format("# annulus_version: {}\npart,predicted_s,shard_of_{},study,description\n", version(),
+                                 by_worker.size());
   for (std::size_t i = 0; i < parts.size(); ++i)
     text += fmt::format("{},{:.6g},{},{},{}\n", i + 1, parts[i].seconds, worker[i], csv_cell(parts[i].study),
-                        csv_cell(parts[i].what));
+                        csv_cell(parts[i].description));
   return text;
 }
 
@@ -254,7 +254,7 @@ Collected collect_study(const fs::path& folder, const RunOptions& given) {
     throw Error(
         fmt::format("{}: {} of {} parts are missing, the first one is {}: {}; run its workers again (annulus "
                     "study run {} --shard 1/1 computes all that is missing)",
-                    folder.string(), missing.size(), parts.size(), first.study, first.what, folder.string()));
+                    folder.string(), missing.size(), parts.size(), first.study, first.description, folder.string()));
   }
   return collected;
 }

@@ -18,22 +18,23 @@ namespace {
 std::string solution_text(const dynamics::SteadyOutcome& found) {
   std::string text = "time integration";
   if (found.periodic) {
-    const auto& direct = *found.periodic;
+    const auto& periodic = *found.periodic;
     const std::string method =
-        direct.method == dynamics::PeriodicMethod::piecewise         ? "exact solution between jumps of the stiffness"
-        : direct.method == dynamics::PeriodicMethod::two_frequencies ? "harmonic balance with two base frequencies"
-                                                                     : "harmonic balance";
-    if (!direct.converged)
-      text += ": the " + method + " failed (" + direct.trouble + ")";
+        periodic.method == dynamics::PeriodicMethod::piecewise         ? "exact solution between jumps of the stiffness"
+        : periodic.method == dynamics::PeriodicMethod::two_frequencies ? "harmonic balance with two base frequencies"
+                                                                       : "harmonic balance";
+    if (!periodic.converged)
+      text += ": the " + method + " failed (" + periodic.trouble + ")";
     else if (!found.confirmed && found.total_cycles > 0)
       text += ": the " + method + " was not confirmed";
     else
       text = fmt::format("{} ({} Newton iterations; other samplings change a force by {:.1e} of the mean){}", method,
-                         direct.newton_iterations, direct.sampling_difference,
-                         !found.confirmed          ? ""
-                         : direct.longer_angle > 0 ? fmt::format(", confirmed by time integration over {} mesh cycles",
-                                                                 std::min(found.window_cycles, 2 * direct.longer_angle))
-                                                   : ", confirmed by time integration over one window");
+                         periodic.newton_iterations, periodic.sampling_difference,
+                         !found.confirmed ? ""
+                         : periodic.longer_angle > 0
+                             ? fmt::format(", confirmed by time integration over {} mesh cycles",
+                                           std::min(found.window_cycles, 2 * periodic.longer_angle))
+                             : ", confirmed by time integration over one window");
   }
   return found.integrator ? text + ". Integrator: " + found.integrator->reason : text;
 }
@@ -46,7 +47,7 @@ Section model_section(const Plan& plan) {
   Blocks blocks = meshes;
   if (!plan.dofs.empty()) {
     PageTable dofs{.head = {"degree of freedom", "", "reason"}};
-    for (const auto& f : plan.dofs) dofs.rows.push_back({f.name, f.kept ? "retained" : "dropped", f.reason});
+    for (const auto& f : plan.dofs) dofs.rows.push_back({f.name, f.retained ? "retained" : "dropped", f.reason});
     blocks += dofs;
   }
   blocks += List{{plan.remarks.begin(), plan.remarks.end()}};

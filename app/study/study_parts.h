@@ -11,9 +11,9 @@
 namespace annulus::app {
 
 struct StudyPart {
-  std::string study;   ///< "[[sweep]] 1", as in the scene
-  std::string what;    ///< "value 7 of 20 (stage.power_kW = 900)", "samples 1 to 100"
-  double seconds = 0;  ///< rough processor time
+  std::string study;        ///< "[[sweep]] 1", as in the scene
+  std::string description;  ///< "value 7 of 20 (stage.power_kW = 900)", "samples 1 to 100"
+  double seconds = 0;       ///< rough processor time
   /// How many workers can compute it together. All workers take part in one of more than one.
   int workers = 1;
 };

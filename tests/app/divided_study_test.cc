@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(shares_are_whole_and_even) {
   parts.resize(2);
   BOOST_TEST(app::shares(parts, 5).back().empty());
   // All workers take part in a search, each in its share of the points.
-  parts.push_back({.study = "[optimise]", .what = "search", .seconds = 60, .workers = 20});
+  parts.push_back({.study = "[optimise]", .description = "search", .seconds = 60, .workers = 20});
   for (const auto& share : app::shares(parts, 5)) BOOST_TEST(share.back() == 2U);
   BOOST_TEST(app::longest_share(parts, 5) == 60. / 5 + 2);
 }

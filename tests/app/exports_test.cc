@@ -114,11 +114,11 @@ BOOST_AUTO_TEST_CASE(the_ring_matrix_is_inverted) {
 
 BOOST_AUTO_TEST_CASE(any_table_goes_as_columns) {
   const test::TemporaryFolder folder("exports_columns");
-  const Csv csv{{{"what", "a test"}}, {"time_s", "sun_u_m"}, {{0, 1e-6}, {0.5, 2e-6}}};
+  const Csv csv{{{"content", "a test"}}, {"time_s", "sun_u_m"}, {{0, 1e-6}, {0.5, 2e-6}}};
   csv.write(folder.path() / "series.csv");
   export_to(folder.path(), "series.csv --to matlab");
   BOOST_TEST(read_with("octave-cli --no-init-file --eval \"s = load('series.mat'); printf('%g %g %s', s.time_s(2), "
-                       "s.sun_u_m(2) * 1e6, s.provenance.what)\"",
+                       "s.sun_u_m(2) * 1e6, s.provenance.content)\"",
                        folder.path()) == "0.5 2 a test");
   export_to(folder.path(), "series.csv --to csv");
   BOOST_TEST(read_file(folder.path() / "series.plain.csv").starts_with("time_s,sun_u_m\n"));

@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(solid_meshes_tell_what_of_the_face_they_solve) {
   };
   const auto symmetry = [](const app::MeshModel& mesh) -> app::Decision {
     for (const auto& d : app::decisions(mesh))
-      if (d.what == "symmetry") return d;
+      if (d.subject == "symmetry") return d;
     return {"", "nothing", ""};
   };
   const auto usual = planned("");
@@ -172,8 +172,8 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_fidelity_elements_and_motion) {
   };
   const auto decided = [](const std::vector<app::Decision>& list, const std::string& what) {
     for (const auto& d : list) {
-      BOOST_TEST(!d.reason.empty(), d.what);
-      if (d.what == what) return d.choice;
+      BOOST_TEST(!d.reason.empty(), d.subject);
+      if (d.subject == what) return d.choice;
     }
     return std::string("nothing");
   };
@@ -356,17 +356,17 @@ BOOST_AUTO_TEST_CASE(every_input_has_an_origin) {
 
 BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_dofs) {
   const auto plan = plan_of(test::quick_scene());
-  const auto kept = [&](const std::string& name) {
+  const auto retained = [&](const std::string& name) {
     for (const auto& f : plan.dofs) {
-      if (f.name == name) return f.kept;
+      if (f.name == name) return f.retained;
     }
     throw std::logic_error(name);
   };
-  BOOST_TEST(kept("sun x, y"));
-  BOOST_TEST(kept("sun u"));
-  BOOST_TEST(!kept("ring x, y"));
-  BOOST_TEST(!kept("ring u"));
-  BOOST_TEST(!kept("carrier x, y"));
+  BOOST_TEST(retained("sun x, y"));
+  BOOST_TEST(retained("sun u"));
+  BOOST_TEST(!retained("ring x, y"));
+  BOOST_TEST(!retained("ring u"));
+  BOOST_TEST(!retained("carrier x, y"));
   BOOST_TEST(plan.contact_problems() == 0L);
   BOOST_TEST(plan.meshes.front().fidelity == "prescribed");
 }

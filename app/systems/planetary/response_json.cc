@@ -59,17 +59,17 @@ Json motion_json(const StageMotion& m) {
           {"section_clusters", m.section_clusters}};
 }
 
-Json direct_json(const std::optional<dynamics::PeriodicSolution>& direct) {
-  if (!direct) return nullptr;
+Json periodic_json(const std::optional<dynamics::PeriodicSolution>& periodic) {
+  if (!periodic) return nullptr;
   constexpr const char* methods[] = {"harmonic_balance", "two_frequencies", "piecewise"};
-  return {{"method", methods[static_cast<int>(direct->method)]},
-          {"converged", direct->converged},
-          {"trouble", direct->trouble},
-          {"newton_iterations", direct->newton_iterations},
-          {"linear_iterations", direct->linear_iterations},
-          {"residual", json_number(direct->residual)},
-          {"sampling_difference", json_number(direct->sampling_difference)},
-          {"largest_multiplier", json_number(direct->largest_multiplier)}};
+  return {{"method", methods[static_cast<int>(periodic->method)]},
+          {"converged", periodic->converged},
+          {"trouble", periodic->trouble},
+          {"newton_iterations", periodic->newton_iterations},
+          {"linear_iterations", periodic->linear_iterations},
+          {"residual", json_number(periodic->residual)},
+          {"sampling_difference", json_number(periodic->sampling_difference)},
+          {"largest_multiplier", json_number(periodic->largest_multiplier)}};
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ std::string response_json(const StageResponse& response, const std::string& id) 
                {"steady", f.steady},
                {"steady_difference", json_number(f.steady_difference)},
                {"confirmed", f.confirmed},
-               {"direct", direct_json(f.periodic)},
+               {"periodic_solution", periodic_json(f.periodic)},
                {"integrator_reason", f.integrator ? Json(f.integrator->reason) : Json(nullptr)},
                {"sun_planet", kind_json(f.sun_planet, response.errors.sun_planet)},
                {"ring_planet", kind_json(f.ring_planet, response.errors.ring_planet)},

@@ -77,7 +77,7 @@ constexpr const char* cached_couplings = "couplings";
 Csv teeth_table(const fem::SolvedRingCoupling& solved) {
   const auto& compliance = solved.teeth_compliance;
   Csv csv;
-  csv.header = {{"what",
+  csv.header = {{"content",
                  "deflection at the flank of a tooth along the line of action per newton on the flank of another; the "
                  "supports hold the ring in both directions; the inverse is the stiffness matrix"},
                 {"error_m_per_N", fmt::format("{:.3g}", solved.teeth_compliance_error)}};
