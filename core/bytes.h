@@ -135,7 +135,7 @@ ANNULUS_MEMBERS(Figure, value, error);
 ANNULUS_MEMBERS(Spread, low, median, high, samples);
 ANNULUS_MEMBERS(FigureSet::Entry, key, figure, parts, spread);
 ANNULUS_MEMBERS(StiffnessEntry, unloaded_te, lte, secant, tangent, error_relative, error_parts);
-ANNULUS_MEMBERS(RingMode, frequency, waves, closing, translation_x, translation_y, rotation);
+ANNULUS_MEMBERS(RingMode, frequency, waves, deflection, translation_x, translation_y, rotation);
 ANNULUS_MEMBERS(RingCoupling, planets, ring_teeth, load, compliance, per_cycle, modes, mass, rotational_mass,
                 provenance);
 

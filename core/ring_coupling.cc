@@ -28,7 +28,7 @@ std::string complaint(const Eigen::MatrixXd& matrix) {
 std::string complaint(const RingMode& mode, double lowest, int teeth) {
   bool finite = std::isfinite(mode.frequency) && std::isfinite(mode.translation_x) &&
                 std::isfinite(mode.translation_y) && std::isfinite(mode.rotation);
-  for (const double c : mode.closing) finite = finite && std::isfinite(c);
+  for (const double c : mode.deflection) finite = finite && std::isfinite(c);
   if (!finite) return "a value is not finite";
   if (mode.frequency <= 0) return "the frequency is not positive";
   if (mode.frequency < lowest) return "the frequencies do not rise";
@@ -58,7 +58,7 @@ std::vector<std::string> compliance_columns(int planets) {
 std::vector<std::string> mode_columns(int teeth) {
   std::vector<std::string> columns = {"frequency_Hz", "waves", "translation_x_sqrt_kg", "translation_y_sqrt_kg",
                                       "rotation_sqrt_kg"};
-  for (int tooth = 0; tooth < teeth; ++tooth) columns.push_back(fmt::format("closing_{}_per_sqrt_kg", tooth));
+  for (int tooth = 0; tooth < teeth; ++tooth) columns.push_back(fmt::format("deflection_{}_per_sqrt_kg", tooth));
   return columns;
 }
 
@@ -120,13 +120,13 @@ void RingCoupling::write_csv(const std::filesystem::path& compliance_file,
   shapes.columns = mode_columns(ring_teeth);
   double lowest = 0;
   for (const auto& mode : modes) {
-    if (mode.closing.size() != static_cast<std::size_t>(ring_teeth))
-      refuse(fmt::format("a mode has {} deflections; the ring has {} teeth", mode.closing.size(), ring_teeth));
+    if (mode.deflection.size() != static_cast<std::size_t>(ring_teeth))
+      refuse(fmt::format("a mode has {} deflections; the ring has {} teeth", mode.deflection.size(), ring_teeth));
     refuse(complaint(mode, lowest, ring_teeth));
     lowest = mode.frequency;
     auto& row = shapes.rows.emplace_back(std::vector<double>{mode.frequency, static_cast<double>(mode.waves),
                                                              mode.translation_x, mode.translation_y, mode.rotation});
-    row.insert(row.end(), mode.closing.begin(), mode.closing.end());
+    row.insert(row.end(), mode.deflection.begin(), mode.deflection.end());
   }
   csv.write(compliance_file);
   shapes.write(modes_file);
@@ -181,7 +181,7 @@ RingCoupling RingCoupling::read_csv(const std::filesystem::path& compliance_file
     mode.translation_x = cell(2);
     mode.translation_y = cell(3);
     mode.rotation = cell(4);
-    for (int tooth = 0; tooth < result.ring_teeth; ++tooth) mode.closing.push_back(cell(5 + tooth));
+    for (int tooth = 0; tooth < result.ring_teeth; ++tooth) mode.deflection.push_back(cell(5 + tooth));
     refuse(shapes, i, complaint(mode, lowest, result.ring_teeth));
     lowest = mode.frequency;
     result.modes.push_back(std::move(mode));

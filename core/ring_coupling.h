@@ -8,14 +8,14 @@
 
 namespace annulus {
 
-/// A natural mode of the ring with its supports, normalised to unit modal mass. Closings are displacements of the
-/// ring's teeth along the line of action, positive where they close the mesh, at the place of a contact in the pitch
-/// point (phase 0): closing[t] is that of a planet at ring position coordinate t. The ring's frame has x through the
-/// centre of tooth 0; the pitch point stands at StiffnessTable::ring_angles.
+/// A natural mode of the ring with its supports, normalised to unit modal mass. Deflections are displacements of the
+/// ring's teeth along the line of action, positive where they add to the deflection of the mesh, at the place of a
+/// contact in the pitch point (phase 0): deflection[t] is that of a planet at ring position coordinate t. The ring's
+/// frame has x through the centre of tooth 0; the pitch point stands at StiffnessTable::ring_angles.
 struct RingMode {
-  double frequency = 0;         ///< Hz
-  int waves = 0;                ///< dominant number of waves around the ring
-  std::vector<double> closing;  ///< kg^-1/2, one per ring tooth
+  double frequency = 0;            ///< Hz
+  int waves = 0;                   ///< dominant number of waves around the ring
+  std::vector<double> deflection;  ///< kg^-1/2, one per ring tooth
   /// Inertial coupling to the rigid motions of the ring (unit amplitudes): integral of density x shape . motion.
   double translation_x = 0, translation_y = 0;  ///< kg^1/2, in the ring's frame
   double rotation = 0;                          ///< kg^1/2, motion: base radius x angle = 1
@@ -24,7 +24,7 @@ struct RingMode {
 /// How the meshes of all planets with one ring act on each other through the ring: the contract between the
 /// finite-element and the lumped side, next to the stiffness table of a single mesh.
 ///
-/// The closing of mesh n falls by sum_m compliance(n, m) F_m beyond what the stiffness table of the single mesh says.
+/// The deflection of mesh n falls by sum_m compliance(n, m) F_m beyond that of the stiffness table of the single mesh.
 /// The diagonal is therefore zero for a ring with linear supports; where pins lift off it shows how the presence of the
 /// other planets changes the mesh itself.
 struct RingCoupling {

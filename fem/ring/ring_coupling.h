@@ -38,7 +38,7 @@ struct SolvedRingCoupling {
   /// m/N, mean over ring positions and planets: what a mesh alone moves its own tooth, force and displacement spread
   /// over half the flank (no contact, no bending of the planet): the scale of the coupling.
   double own_compliance = 0;
-  /// m/N, ring teeth x ring teeth: closing lost at the flank of tooth i under a unit mesh force on tooth j, both along
+  /// m/N, ring teeth x ring teeth: deflection at the flank of tooth i under a unit mesh force on tooth j, both along
   /// the line of action at the pitch point; supports that could lift off are held both ways. Symmetric, positive
   /// definite: its inverse is the stiffness matrix of the ring reduced to its teeth.
   Eigen::MatrixXd teeth_compliance{};
@@ -61,7 +61,7 @@ struct SolvedRingCoupling {
 /// Supports that can lift off make the ring non-linear. Off the diagonal stands the tangent compliance while all
 /// meshes carry `load`, which is symmetric. The diagonal is chosen so that under equal loads
 ///
-///     sum_m compliance(n, m) load = closing lost at n when all are loaded - when n alone is
+///     sum_m compliance(n, m) load = deflection lost at n when all are loaded - when n alone is
 ///
 /// holds exactly; without clearance it is the difference of the mesh's own tangent compliance in both states. The
 /// mesh's own compliance alone is in its stiffness table. With other supports the diagonal is zero.

@@ -20,7 +20,7 @@ RingMode make_mode(const RingFlexibility& ring, double frequency, int waves, con
   RingMode mode;
   mode.frequency = frequency;
   mode.waves = waves;
-  for (int tooth = 0; tooth < ring.teeth; ++tooth) mode.closing.push_back(-mesh[(ring.teeth - tooth) % ring.teeth]);
+  for (int tooth = 0; tooth < ring.teeth; ++tooth) mode.deflection.push_back(-mesh[(ring.teeth - tooth) % ring.teeth]);
   Eigen::Vector3d participation = Eigen::Vector3d::Zero();
   for (int s = 0; s < ring.teeth; ++s)
     participation += ring.resultants_of(s, ring.first_motion(), ring.motions) * shape.col(s);
@@ -40,8 +40,8 @@ struct Candidate {
   Complex mesh = 0;
 };
 
-/// Turned so that the closing is real and positive where there is any, else the largest motion. `mesh_compliance`: of
-/// the mesh force by itself; its root times omega is the most that a mode of unit mass can close.
+/// Turned so that the deflection is real and positive where there is any, else the largest motion. `mesh_compliance`:
+/// of the mesh force by itself; its root times omega is the largest deflection of a mode of unit mass.
 void fix_phase(Candidate& c, double mesh_compliance) {
   Eigen::Index largest = 0;
   c.motions.cwiseAbs().maxCoeff(&largest);
@@ -132,11 +132,11 @@ std::vector<RingMode> supported_ring_modes(const RingFlexibility& ring, const Ri
     if (frequency > limits.highest_frequency || (k >= limits.count && !second)) break;
     const Eigen::MatrixXd shape = vectors.col(k).reshaped(ring.motions, teeth);
     RingMode mode = make_mode(ring, frequency, dominant_waves(shape), shape, mesh.col(k) / values[k]);
-    // The sign is free: the largest closing is positive.
-    const auto largest = std::max_element(mode.closing.begin(), mode.closing.end(),
+    // The sign is free: the largest deflection is positive.
+    const auto largest = std::max_element(mode.deflection.begin(), mode.deflection.end(),
                                           [](double a, double b) { return std::abs(a) < (1 - 1e-9) * std::abs(b); });
     if (*largest < 0) {
-      for (double& c : mode.closing) c = -c;
+      for (double& c : mode.deflection) c = -c;
       for (double* p : {&mode.translation_x, &mode.translation_y, &mode.rotation}) *p = -*p;
     }
     modes.push_back(std::move(mode));

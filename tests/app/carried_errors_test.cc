@@ -182,9 +182,9 @@ BOOST_AUTO_TEST_CASE(frequencies_carry_the_error_of_the_elastic_ring) {
     coupling->rotational_mass = 40;
     coupling->compliance.emplace_back(Eigen::MatrixXd::Zero(stage.planets(), stage.planets()));
     for (const int k : {0, 1}) {
-      RingMode mode{.frequency = factor * 1500, .waves = 2, .closing = {}};
+      RingMode mode{.frequency = factor * 1500, .waves = 2, .deflection = {}};
       for (int tooth = 0; tooth < stage.ring_teeth; ++tooth)
-        mode.closing.push_back(0.05 * std::cos(2 * M_PI * (2.0 * tooth / stage.ring_teeth - k / 4.0)));
+        mode.deflection.push_back(0.05 * std::cos(2 * M_PI * (2.0 * tooth / stage.ring_teeth - k / 4.0)));
       coupling->modes.push_back(std::move(mode));
     }
     stage.ring_coupling = std::move(coupling);

@@ -70,15 +70,15 @@ class DensePeer {
         damping_(system.damping() + system.gyroscopic()),
         b_(system.mesh_vectors()),
         force_(b_.cols()),
-        closing_(b_.cols()),
-        closing_rate_(b_.cols()),
+        approach_(b_.cols()),
+        approach_rate_(b_.cols()),
         right_(system.dofs()) {}
   void operator()(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dy, LumpedSystem::Workspace& w) {
     const auto n = right_.size();
     const auto q = y.head(n), v = y.tail(n);
-    closing_.noalias() = b_.transpose() * q;
-    closing_rate_.noalias() = b_.transpose() * v;
-    system_.evaluate_forces(t, closing_.data(), closing_rate_.data(), w);
+    approach_.noalias() = b_.transpose() * q;
+    approach_rate_.noalias() = b_.transpose() * v;
+    system_.evaluate_forces(t, approach_.data(), approach_rate_.data(), w);
     right_ = system_.load();
     right_.noalias() -= stiffness_ * q;
     right_.noalias() -= damping_ * v;
@@ -92,7 +92,7 @@ class DensePeer {
   const LumpedSystem& system_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::MatrixXd stiffness_, damping_, b_;
-  Eigen::VectorXd force_, closing_, closing_rate_, right_;
+  Eigen::VectorXd force_, approach_, approach_rate_, right_;
 };
 
 /// Smallest nanoseconds per call of several rounds: what the machine does when nothing else runs.

@@ -34,7 +34,7 @@ RingCoupling sample(int planets, int teeth, int positions, int per_cycle, int mo
   }
   for (int k = 0; k < modes; ++k) {
     RingMode mode{1000.0 / 3 + 100 * k, k % (teeth / 2), {}, 0.1 * k, -0.2 / 3, 1.0 / 7};
-    for (int t = 0; t < teeth; ++t) mode.closing.push_back(std::cos(t * k) / 3);
+    for (int t = 0; t < teeth; ++t) mode.deflection.push_back(std::cos(t * k) / 3);
     c.modes.push_back(mode);
   }
   return c;
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(round_trip_keeps_every_bit) {
     BOOST_TEST_REQUIRE(read.modes.size() == coupling.modes.size());
     for (std::size_t k = 0; k < read.modes.size(); ++k) {
       const auto &a = read.modes[k], &b = coupling.modes[k];
-      BOOST_TEST((a.frequency == b.frequency && a.waves == b.waves && a.closing == b.closing &&
+      BOOST_TEST((a.frequency == b.frequency && a.waves == b.waves && a.deflection == b.deflection &&
                   a.translation_x == b.translation_x && a.translation_y == b.translation_y &&
                   a.rotation == b.rotation));
     }
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(a_damaged_file_is_refused_with_its_line) {
   refused(compliance_file, "\n1,", "\nnan,", 10);
   refused(compliance_file, "\n0,", "\n0,0,1e-12,2e-12,0\n0,", 1);  // a position too many
   refused(modes_file, "# ring_teeth: 6", "# ring_teeth: 8", 1);
-  refused(modes_file, "closing_5_per_sqrt_kg", "closing_6_per_sqrt_kg", 7);
+  refused(modes_file, "deflection_5_per_sqrt_kg", "deflection_6_per_sqrt_kg", 7);
   refused(modes_file, "\n433.3", "\n133.3", 9);  // frequencies fall
   refused(modes_file, "\n333.3", "\n-333.3", 8);
   refused(modes_file, ",0,0,", ",4,0,", 8);  // more than half as many waves as teeth
@@ -132,9 +132,9 @@ BOOST_AUTO_TEST_CASE(unusable_values_are_not_written) {
   refused([](RingCoupling& c) { c.compliance.clear(); });
   refused([](RingCoupling& c) { c.load = 0; });
   refused([](RingCoupling& c) { c.per_cycle = 2; });  // three positions
-  refused([](RingCoupling& c) { c.modes[0].closing.pop_back(); });
+  refused([](RingCoupling& c) { c.modes[0].deflection.pop_back(); });
   refused([](RingCoupling& c) { std::swap(c.modes[0], c.modes[1]); });
-  refused([](RingCoupling& c) { c.modes[1].closing[3] = std::numeric_limits<double>::infinity(); });
+  refused([](RingCoupling& c) { c.modes[1].deflection[3] = std::numeric_limits<double>::infinity(); });
   refused([](RingCoupling& c) { c.modes[1].waves = -1; });
   std::filesystem::remove(compliance_file);
   std::filesystem::remove(modes_file);

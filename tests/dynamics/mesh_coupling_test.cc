@@ -60,7 +60,7 @@ std::shared_ptr<RingCoupling> coupling(double scale, int modes, int planets = 5,
     mode.frequency = 1500 + 800 * k;
     mode.waves = 2 + k / 2;
     for (int tooth = 0; tooth < teeth; ++tooth)
-      mode.closing.push_back(0.05 * std::cos(tau * mode.waves * tooth / teeth - tau / 4 * (k % 2)));
+      mode.deflection.push_back(0.05 * std::cos(tau * mode.waves * tooth / teeth - tau / 4 * (k % 2)));
     mode.translation_x = 0.4;
     mode.translation_y = k % 2 ? -0.3 : 0.3;
     mode.rotation = 0.2;
@@ -386,7 +386,7 @@ BOOST_AUTO_TEST_CASE(a_ring_in_the_housing_moves_as_in_the_carrier_frame) {
                                      "the same stage described in the carrier frame");
   // A mode that closes nothing and is not coupled only moves the ring's coordinates to the housing.
   auto inert = coupling(1e-10, 1);
-  inert->modes[0].closing.assign(162, 0.0);
+  inert->modes[0].deflection.assign(162, 0.0);
   inert->modes[0].translation_x = inert->modes[0].translation_y = inert->modes[0].rotation = 0;
   auto none = std::make_shared<RingCoupling>(*inert);
   none->modes.clear();
@@ -479,7 +479,7 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   refused([](auto& c) { c.compliance.pop_back(); });
   refused([](auto& c) { c.compliance[1](0, 1) *= 2; });
   refused([](auto& c) { c.compliance[1](0, 1) = NAN; });
-  refused([](auto& c) { c.modes[0].closing.pop_back(); });
+  refused([](auto& c) { c.modes[0].deflection.pop_back(); });
   refused([](auto& c) { c.modes[0].frequency = 0; });
   refused([](auto& c) { c.modes[0].rotation = 1e6; });  // more than the whole ring: no positive mass matrix
   LumpedSystemBuilder builder;

@@ -566,7 +566,7 @@ BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_nothing) {
                  largest(one.coupling.compliance[0] - many.coupling.compliance[0]), 0, "equal to the last bit");
   int different = 0;
   for (std::size_t k = 0; k < one.coupling.modes.size(); ++k)
-    different += one.coupling.modes[k].closing != many.coupling.modes[k].closing;
+    different += one.coupling.modes[k].deflection != many.coupling.modes[k].deflection;
   record.at_most("modes that differ", "", different, 0, "equal to the last bit");
 }
 

@@ -104,17 +104,17 @@ BOOST_AUTO_TEST_CASE(a_free_thin_ring_bends_at_the_frequencies_of_hoppe_and_brea
       curve.x.push_back(n);
       curve.computed.push_back(1 + off);
       curve.reference.push_back(1 - shear);
-      const auto& closing = first_with(modes, n).closing;
+      const auto& deflection = first_with(modes, n).deflection;
       // Inextensional, w = cos n theta: unit modal mass is 2 pi rho h (1 + 1 / n^2) / 2 w^2.
-      record.close("radial displacement of a mode of unit mass", "", closing[0],
+      record.close("radial displacement of a mode of unit mass", "", deflection[0],
                    1 / std::sqrt(M_PI * density * height * (1 + 1.0 / (n * n))), 0.01, "thin ring");
-      BOOST_TEST(std::abs(closing[48 / 2] - (n % 2 == 0 ? 1 : -1) * closing[0]) < 1e-6 * closing[0]);
+      BOOST_TEST(std::abs(deflection[48 / 2] - (n % 2 == 0 ? 1 : -1) * deflection[0]) < 1e-6 * deflection[0]);
     }
     // omega^2 = E / (rho R^2), purely radial.
     const auto& breathing = first_with(modes, 0);
     record.close("breathing: sqrt(E / rho) / (2 pi R)" + named, "Hz", breathing.frequency,
                  std::sqrt(modulus) / (2 * M_PI), height * height + 1e-5, "(h / R)^2");
-    BOOST_TEST(std::abs(breathing.closing[0]) == 1 / std::sqrt(2 * M_PI * density * height),
+    BOOST_TEST(std::abs(breathing.deflection[0]) == 1 / std::sqrt(2 * M_PI * density * height),
                boost::test_tools::tolerance(height));
     plot.curves.push_back(curve);
   }
@@ -238,15 +238,16 @@ BOOST_AUTO_TEST_CASE(on_soft_bolts_the_first_modes_are_rigid_motions) {
     const double modal_mass = turns ? std::pow(mode.rotation * base, 2) / inertia
                                     : (std::pow(mode.translation_x, 2) + std::pow(mode.translation_y, 2)) / mass;
     record.close("modal mass", "", modal_mass, 1, 1e-5, "springs a thousand times softer than the ring");
-    // Rigid motion of the real ring, whose leading flanks the planets touch: out of the material closes the mesh.
+    // Rigid motion of the real ring, whose leading flanks the planets touch: out of the material adds to the
+    // deflection.
     const Eigen::Vector2d shift = Eigen::Vector2d(mode.translation_x, mode.translation_y) / mass;
     const double turn = mode.rotation * base / inertia;
     double worst = 0, scale = 0;
     for (int tooth = 0; tooth < teeth; ++tooth) {
       const Eigen::Vector2d n = Eigen::Rotation2Dd(tooth * ring.gear.pitch_angle()) * normal;
-      const double closing = n.dot(shift) + turn * (point.x() * normal.y() - point.y() * normal.x());
-      worst = std::max(worst, std::abs(mode.closing[tooth] - closing));
-      scale = std::max(scale, std::abs(closing));
+      const double deflection = n.dot(shift) + turn * (point.x() * normal.y() - point.y() * normal.x());
+      worst = std::max(worst, std::abs(mode.deflection[tooth] - deflection));
+      scale = std::max(scale, std::abs(deflection));
     }
     BOOST_TEST(worst < 5e-3 * scale);  // deformation, and the fanned-out mesh force
   }
@@ -266,7 +267,7 @@ BOOST_AUTO_TEST_CASE(all_modes_together_give_the_static_compliance_and_the_mass)
       const double flexibility = std::pow(2 * M_PI * mode.frequency, -2);
       const double before = sum[0];
       // The mirrored teeth of the solve count backwards: tooth 0 moves under a force on tooth d.
-      for (int d = 0; d < teeth; ++d) sum[d] += flexibility * mode.closing[0] * mode.closing[d];
+      for (int d = 0; d < teeth; ++d) sum[d] += flexibility * mode.deflection[0] * mode.deflection[d];
       BOOST_TEST(sum[0] >= before);
       x += mode.translation_x * mode.translation_x;
       y += mode.translation_y * mode.translation_y;
@@ -313,7 +314,7 @@ BOOST_AUTO_TEST_CASE(limits_keep_the_lowest_modes_and_whole_pairs) {
                     all[some.size()].frequency / some.back().frequency, 1, "a pair is not parted");
     BOOST_TEST(some.back().frequency < all[some.size()].frequency);
     int different = 0;
-    for (std::size_t k = 0; k < some.size(); ++k) different += some[k].closing != all[k].closing;
+    for (std::size_t k = 0; k < some.size(); ++k) different += some[k].deflection != all[k].deflection;
     record.at_most("kept modes that differ", "", different, 0, "equal to the last bit");
   }
   const auto low = held_ring_modes(ring.flexibility, {all_modes, all[6].frequency});

@@ -26,7 +26,7 @@ struct RingOfWidth {
     solved = solve_ring_coupling(problem, equal_places(5), nominal_load, settings);
     constexpr double at_rest = 0.01;  // kg^-1/2; the others have some tenths
     for (const auto& mode : solved.coupling.modes)
-      if (*std::max_element(mode.closing.begin(), mode.closing.end()) > at_rest)
+      if (*std::max_element(mode.deflection.begin(), mode.deflection.end()) > at_rest)
         frequency.emplace(mode.waves, mode.frequency);
   }
   SolvedRingCoupling solved;

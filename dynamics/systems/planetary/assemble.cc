@@ -168,7 +168,7 @@ std::vector<MovingShare> ring_shares(const PlanetaryStage& stage, const BodyForm
        {std::tuple{&ring.x, -1.0, psi}, std::tuple{&ring.y, 1.0, psi + std::numbers::pi / 2}})
     for (const auto& [dof, factor] : *form) shares.push_back({dof, {}, {amount * factor, speed, phase}});
   for (std::size_t k = 0; k < modes.size(); ++k)
-    shares.push_back({modes[k].front().first, PeriodicCurve(stage.ring_coupling->modes[k].closing, 1), {}});
+    shares.push_back({modes[k].front().first, PeriodicCurve(stage.ring_coupling->modes[k].deflection, 1), {}});
   return shares;
 }
 

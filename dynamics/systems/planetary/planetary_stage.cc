@@ -62,8 +62,8 @@ void check_coupling(const RingCoupling& coupling, const PlanetaryStage& stage) {
   }
   for (const auto& mode : coupling.modes) {
     check_positive(mode.frequency, "ring coupling: frequency of a mode");
-    if (static_cast<int>(mode.closing.size()) != coupling.ring_teeth)
-      refuse(fmt::format("a mode has {} displacements for {} teeth", mode.closing.size(), coupling.ring_teeth));
+    if (static_cast<int>(mode.deflection.size()) != coupling.ring_teeth)
+      refuse(fmt::format("a mode has {} displacements for {} teeth", mode.deflection.size(), coupling.ring_teeth));
     for (const double value : {mode.translation_x, mode.translation_y, mode.rotation})
       if (!std::isfinite(value))
         refuse(fmt::format("the inertial coupling {} of the mode at {} Hz is not finite", value, mode.frequency));
