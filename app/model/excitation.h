@@ -14,7 +14,7 @@ namespace annulus::app {
 /// How the lumped model sees a mesh: the wave the scene gives, or the curves of its table at the nominal load (N) or
 /// over all of them. `back_flank_phase`: that of the pair; back flanks have no other table, so that they have the
 /// mirror image of this one. Where it changes from tooth to tooth, that is right for the teeth, but the supports of the
-/// ring are then mirrored too, and stand elsewhere (carried_errors.h).
+/// ring are then mirrored too, and stand elsewhere (propagated_errors.h).
 [[nodiscard]] dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh,
                                                      double nominal_load, dynamics::LoadDependence dependence,
                                                      std::optional<double> back_flank_phase = {});

@@ -123,8 +123,8 @@ std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {
           [pair = lumped.pair](const dynamics::TimeSeries& series) { return dynamics::space_motion(pair, series); }});
 }
 
-FigureSet carried_pair_errors(const LumpedPair& lumped, const dynamics::SimulationOptions& options,
-                              dynamics::PairResponse& response) {
+FigureSet propagated_pair_errors(const LumpedPair& lumped, const dynamics::SimulationOptions& options,
+                                 dynamics::PairResponse& response) {
   const auto way = dynamics::comparison_options(response, options);
   auto figures = with_table_errors(
       evaluation_of(lumped.pair, response), {&lumped.mesh},

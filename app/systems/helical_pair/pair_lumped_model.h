@@ -32,8 +32,8 @@ struct LumpedPair {
 
 /// The results of a response that was found with `options`, with the errors that the stiffness table brings;
 /// `response` receives their totals.
-[[nodiscard]] FigureSet carried_pair_errors(const LumpedPair& lumped, const dynamics::SimulationOptions& options,
-                                            dynamics::PairResponse& response);
+[[nodiscard]] FigureSet propagated_pair_errors(const LumpedPair& lumped, const dynamics::SimulationOptions& options,
+                                               dynamics::PairResponse& response);
 
 /// Losses and efficiency (friction_losses.h); nothing without [friction].
 [[nodiscard]] FigureSet pair_losses(const Scene& scene, const PairGeometry& geometry, const PairShares& shares);

@@ -136,7 +136,7 @@ void save_speeds(const std::vector<SpeedRow>& rows, const std::filesystem::path&
     if (!row.failure.empty()) continue;
     auto& cells = csv.rows.emplace_back(1, row.pinion_speed / units::rpm);
     for (const auto* m : {&row.all, &row.errors_alone, &row.stiffness_alone})
-      cells.insert(cells.end(), {m->acceleration, m->force_range, m->te_range});
+      cells.insert(cells.end(), {m->acceleration, m->peak_to_peak_force, m->peak_to_peak_te});
   }
   csv.write(folder / "causes_over_speed.csv");
 }
@@ -178,7 +178,7 @@ std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshRes
   if (pair.space)
     add_face_loads(response.space, moving_pair_face(scene, geometry, pair, mesh, options), options.threads);
   f.series = {};
-  result->figures = carried_pair_errors(lumped, simulation, f);
+  result->figures = propagated_pair_errors(lumped, simulation, f);
   result->motions = f.motions;
   result->shafts = f.shafts;
   const auto id = lumped.id(simulation);

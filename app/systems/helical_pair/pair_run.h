@@ -32,9 +32,9 @@ struct ShareRow {
 /// What each cause alone does at one speed of the pinion.
 struct SpeedRow {
   struct Motion {
-    double acceleration = 0;  ///< m/s^2, of the teeth
-    double force_range = 0;   ///< N, largest - smallest mesh force
-    double te_range = 0;      ///< m, peak-to-peak u_1 + u_2
+    double acceleration = 0;        ///< m/s^2, of the teeth
+    double peak_to_peak_force = 0;  ///< N, largest - smallest mesh force
+    double peak_to_peak_te = 0;     ///< m, peak-to-peak u_1 + u_2
   };
   double pinion_speed = 0;                          ///< rad/s
   Motion all{}, errors_alone{}, stiffness_alone{};  ///< errors alone: at constant mean stiffness

@@ -115,8 +115,8 @@ Json pair_summary(const PairRunResult& result) {
     if (!row.failure.empty()) continue;
     const auto motion = [](const SpeedRow::Motion& m) {
       return Json{{"acceleration_m_per_s2", m.acceleration},
-                  {"force_range_N", m.force_range},
-                  {"transmission_error_m", m.te_range}};
+                  {"force_range_N", m.peak_to_peak_force},
+                  {"transmission_error_m", m.peak_to_peak_te}};
     };
     json["causes_over_speed"].push_back({{"pinion_speed_rpm", row.pinion_speed / units::rpm},
                                          {"all", motion(row.all)},

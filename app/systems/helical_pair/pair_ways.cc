@@ -48,7 +48,7 @@ ModelWays pair_ways(const LumpedPair& lumped) {
   ModelWays ways{.as_run = {.id = lumped.id(unconfirmed)}, .others = of.list()};
   ways.as_run.figures = [lumped, unconfirmed] {
     auto response = dynamics::evaluate_pair(lumped.pair, unconfirmed);
-    return carried_pair_errors(lumped, unconfirmed, response);
+    return propagated_pair_errors(lumped, unconfirmed, response);
   };
   return ways;
 }

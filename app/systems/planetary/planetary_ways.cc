@@ -57,7 +57,7 @@ ModelWays planetary_ways(const Scene& scene, const GearGeometry& geometry, std::
   ways.as_run.figures = [&scene, &geometry, &sun, &wheel, ring, stage, unconfirmed] {
     auto response = dynamics::simulate(stage, unconfirmed);
     const auto make = [&](const MeshResult& s, const MeshResult& w) { return make_stage(scene, geometry, ring, s, w); };
-    set_errors(carried_errors(response, unconfirmed, {make, sun, wheel}), response);
+    set_errors(propagated_errors(response, unconfirmed, {make, sun, wheel}), response);
     auto figures = dynamics::figures(response);
     figures.add(frequency_figures(stage_modes(stage, stiffness_errors(sun, wheel))));
     return figures;

@@ -150,7 +150,7 @@ StageResponse simulate_stage(const dynamics::PlanetaryStage& stage, const dynami
   for_each_stage_table(result, [](const char*, Csv& table) { table.round(); });
   result.time_series = time_series_table(response.series, response.window_cycles).text();
   response.series = {};
-  result.errors = carried_errors(response, options, tables);
+  result.errors = propagated_errors(response, options, tables);
   set_errors(result.errors, response);
   result.figures = std::move(response);
   return result;

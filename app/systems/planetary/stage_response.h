@@ -9,7 +9,7 @@
 #include "app/plan/gear_geometry.h"
 #include "app/results/content_id.h"
 #include "app/scene/scene.h"
-#include "app/systems/planetary/carried_errors.h"
+#include "app/systems/planetary/propagated_errors.h"
 #include "app/systems/planetary/stage_modes.h"
 #include "app/systems/planetary/stage_motion.h"
 #include "core/csv.h"

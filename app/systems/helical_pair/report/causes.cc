@@ -100,11 +100,12 @@ Pictures speeds_pictures(const std::vector<const SpeedRow*>& rows) {
     return cause_plot<SpeedRow>({.title = title, .x_label = "speed of the pinion, r/min", .y_label = y_label}, rows,
                                 &SpeedRow::pinion_speed, units::rpm, scale, lines);
   };
-  return Pictures{{plot("Largest acceleration of the teeth", "m/s²", &SpeedRow::Motion::acceleration, 1),
-                   plot("Peak-to-peak mesh force", "largest – smallest, kN", &SpeedRow::Motion::force_range, 1e-3),
-                   plot("Peak-to-peak transmission error", "µm", &SpeedRow::Motion::te_range, 1e6)},
-                  {{"all causes", 0}, {"errors alone", 1}, {"stiffness alone", 2}},
-                  "The same causes over the speed, at the torque of the stage."};
+  return Pictures{
+      {plot("Largest acceleration of the teeth", "m/s²", &SpeedRow::Motion::acceleration, 1),
+       plot("Peak-to-peak mesh force", "largest – smallest, kN", &SpeedRow::Motion::peak_to_peak_force, 1e-3),
+       plot("Peak-to-peak transmission error", "µm", &SpeedRow::Motion::peak_to_peak_te, 1e6)},
+      {{"all causes", 0}, {"errors alone", 1}, {"stiffness alone", 2}},
+      "The same causes over the speed, at the torque of the stage."};
 }
 
 }  // namespace

@@ -158,7 +158,7 @@ void add_speeds(std::vector<Conclusion>& list, const PairRunResult& result) {
        {std::tuple{"The largest acceleration stays about the same at low speed and rises at high speed",
                    &SpeedRow::Motion::acceleration, "m/s²", 1.0},
         {"The peak-to-peak mesh force stays about the same at low speed and rises at high speed",
-         &SpeedRow::Motion::force_range, "kN", 1e-3}}) {
+         &SpeedRow::Motion::peak_to_peak_force, "kN", 1e-3}}) {
     const double a = low.all.*pick, b = middle.all.*pick;
     double peak = 0;
     for (const auto* row : rows) peak = std::max(peak, row->all.*pick);

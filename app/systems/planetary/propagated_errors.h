@@ -32,8 +32,8 @@ struct StageTables {
 /// dynamics/error_propagation. Prescribed stiffness is exact. Where back flanks carry on a ring that changes from tooth
 /// to tooth, the model's part has what the results change when its supports stand elsewhere under them; where the
 /// coupling of the meshes is left out as negligible, it has what the coupling changes.
-[[nodiscard]] ResponseErrors carried_errors(const dynamics::DynamicResponse& nominal,
-                                            const dynamics::SimulationOptions& options, const StageTables& tables);
+[[nodiscard]] ResponseErrors propagated_errors(const dynamics::DynamicResponse& nominal,
+                                               const dynamics::SimulationOptions& options, const StageTables& tables);
 
 /// Makes Figure::error the total of the parts.
 void set_errors(const ResponseErrors& errors, dynamics::DynamicResponse& response);

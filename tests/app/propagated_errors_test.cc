@@ -1,4 +1,4 @@
-#include "app/systems/planetary/carried_errors.h"
+#include "app/systems/planetary/propagated_errors.h"
 #include "app/model/gear_system.h"
 #include "app/plan/plan.h"
 
@@ -77,7 +77,7 @@ struct TableScene {
   }
 };
 
-/// Of the tables' own errors: these ones do not tell what they are made of.
+/// The error of the tables themselves, whose parts are not known.
 double of_stiffness(const ErrorParts& e) { return e.discretisation + e.contact + e.condensation + e.model; }
 
 struct Pair {
@@ -104,7 +104,7 @@ std::vector<Pair> pairs(const app::StageResponse& r) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(carried_errors)
+BOOST_AUTO_TEST_SUITE(propagated_errors)
 
 BOOST_AUTO_TEST_CASE(frequencies_carry_the_errors_of_the_stiffness) {
   // Against the frequencies of stages whose stiffness is larger by its error.

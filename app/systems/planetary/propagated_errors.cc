@@ -1,4 +1,4 @@
-#include "app/systems/planetary/carried_errors.h"
+#include "app/systems/planetary/propagated_errors.h"
 
 #include <fmt/format.h>
 
@@ -76,8 +76,8 @@ void add_changes(const dynamics::PlanetaryStage& here, const std::vector<dynamic
 
 }  // namespace
 
-ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::SimulationOptions& options,
-                              const StageTables& tables) {
+ResponseErrors propagated_errors(const DynamicResponse& nominal, const dynamics::SimulationOptions& options,
+                                 const StageTables& tables) {
   const auto way = dynamics::comparison_options(nominal, options);
   auto found = with_table_errors(
       evaluation_of(nominal), {&tables.sun_mesh, &tables.ring_mesh},
