@@ -1,8 +1,9 @@
 #include "fem/condensation/harmonic_matrix.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <complex>
-#include <string>
 
 #include "core/errors.h"
 #include "fem/condensation/lapack.h"
@@ -71,7 +72,7 @@ Eigen::MatrixXcd HarmonicMatrix::factor(int harmonic) const {
       matrix += rigid_stiffness * motion * motion.adjoint();
   }
   if (!lapack::cholesky(matrix))
-    throw SolverError("the ring is not held against its harmonic " + std::to_string(harmonic) + " of deformation");
+    throw SolverError(fmt::format("no support resists harmonic {} of the deformation of the ring", harmonic));
   return matrix;
 }
 

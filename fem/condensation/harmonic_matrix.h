@@ -14,7 +14,7 @@ class HarmonicMatrix {
   /// `sector` is referred to.
   HarmonicMatrix(const CondensedSector& sector, bool floating);
 
-  /// Its Cholesky factor (lower). Throws SolverError when the ring is not held against the harmonic.
+  /// Its Cholesky factor (lower). Throws SolverError when no support resists the harmonic.
   [[nodiscard]] Eigen::MatrixXcd factor(int harmonic) const;
   /// Loads on the own interface, m x loads.
   [[nodiscard]] const Eigen::MatrixXd& load_low() const { return load_low_; }

@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(what_is_reused_is_what_would_be_computed) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(other_stages_alike) {
+BOOST_AUTO_TEST_CASE(other_stages_are_equal_too) {
   ::setenv("ANNULUS_CACHE", "", 1);
   const test::TemporaryFolder folder("other_stages");
   const std::string draws =

@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(rough_motions_cover_accurate_ones) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(planets_that_move_alike_to_rounding_are_periodic) {
+BOOST_AUTO_TEST_CASE(planets_with_equal_motions_to_rounding_are_periodic) {
   FaultRuns runs("periodic_called_irregular");
   const auto outcome = runs.run("out");
   BOOST_TEST(outcome.status == 0, outcome.err);

@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(power_is_the_rate_of_energy) {
               "rounding and curvature over a step of 10 ns");
 }
 
-BOOST_AUTO_TEST_CASE(energy_of_an_undamped_constant_law_is_kept) {
+BOOST_AUTO_TEST_CASE(an_undamped_constant_law_conserves_energy) {
   annulus::test::Verification record("A mass rattling on a bent law of force", "conservation of energy");
   const BentTable bent{.ripple = 0};
   auto table = bent.table();

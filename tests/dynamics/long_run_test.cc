@@ -130,7 +130,7 @@ class SmallRun {
 
 BOOST_AUTO_TEST_CASE(memory_does_not_grow_with_the_length_of_a_run) {
   annulus::test::Verification record("Memory of a run of 20 000 mesh cycles",
-                                     "a run of 200, every operator new counted; 160 000 kept states would be 4 MB");
+                                     "a run of 200, every operator new counted; 160 000 stored states would be 4 MB");
   const auto system = small_system();
   const auto run = [&](int cycles) {
     SmallRun small(system);

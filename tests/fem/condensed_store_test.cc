@@ -81,9 +81,9 @@ void count_teeth(annulus::test::Verification& record, const std::string& which, 
   record.near(which, "", found, expected, 0, "counted by hand");
 }
 
-BOOST_AUTO_TEST_CASE(a_kept_tooth_changes_not_a_single_bit) {
+BOOST_AUTO_TEST_CASE(a_cached_tooth_changes_not_a_single_bit) {
   const Folder folder("bits");
-  annulus::test::Verification record("Results with teeth that were kept", "the same without a store");
+  annulus::test::Verification record("Results with cached teeth", "the same without a store");
   for (const auto& problem : {ring_mesh(OutsideHeld{}, 2), ring_mesh(paper_pins(81, 0.01), 2)}) {
     const auto without = solve(problem, nullptr);
     count_teeth(record, "teeth condensed without a store", without.condensed_teeth, 4);
@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(a_kept_tooth_changes_not_a_single_bit) {
 BOOST_AUTO_TEST_CASE(the_planet_of_all_meshes_is_one_tooth) {
   const Folder folder("planet");
   const auto store = folder.store();
-  annulus::test::Verification record("Teeth kept for the meshes of a stage",
+  annulus::test::Verification record("Teeth cached for the meshes of a stage",
                                      "counted by hand: sun, planet, ring held outside, ring that floats");
   count_teeth(record, "teeth condensed for the sun mesh", solve(sun_mesh(2), store).condensed_teeth, 4);
   const auto held = solve(ring_mesh(OutsideHeld{}, 2), store);
@@ -109,12 +109,12 @@ BOOST_AUTO_TEST_CASE(the_planet_of_all_meshes_is_one_tooth) {
   count_teeth(record, "teeth read for the ring mesh: the planet", held.reused_teeth, 2);
   const auto pinned = solve(ring_mesh(paper_pins(81, 0), 2), store);
   count_teeth(record, "teeth condensed for pins: a ring that floats is another body", pinned.condensed_teeth, 2);
-  record.near("files kept", "", static_cast<double>(folder.files().size()), 8, 0, "one for each tooth");
+  record.near("files stored", "", static_cast<double>(folder.files().size()), 8, 0, "one for each tooth");
 }
 
 BOOST_AUTO_TEST_CASE(other_supports_condense_nothing) {
   const Folder folder("pins");
-  annulus::test::Verification record("Other pins, bolts, a housing and splines on a ring that was kept",
+  annulus::test::Verification record("Other pins, bolts, a housing and splines on a cached ring",
                                      "the same without a store");
   const auto store = folder.store();
   (void)solve(ring_mesh(paper_pins(81, 0), 2), store);
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(other_supports_condense_nothing) {
 
 BOOST_AUTO_TEST_CASE(loads_positions_and_modifications_condense_nothing) {
   const Folder folder("loads");
-  annulus::test::Verification record("Other loads, positions and a tip relief on teeth that were kept",
+  annulus::test::Verification record("Other loads, positions and a tip relief on cached teeth",
                                      "the same without a store");
   const auto store = folder.store();
   (void)solve(ring_mesh(OutsideHeld{}, 2), store);
@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(loads_positions_and_modifications_condense_nothing) {
 
 BOOST_AUTO_TEST_CASE(what_a_tooth_depends_on_condenses_it_again) {
   const Folder folder("depends");
-  annulus::test::Verification record("What a kept tooth depends on",
+  annulus::test::Verification record("Inputs on which a cached tooth depends",
                                      "counted by hand: the teeth that a change concerns");
   const auto problem = ring_mesh(OutsideHeld{}, 2);
   (void)solve(problem, folder.store());
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(what_a_tooth_depends_on_condenses_it_again) {
   count_teeth(record, "teeth condensed for cubic elements", solve_loaded_mesh(problem, cubic).condensed_teeth, 4);
 }
 
-BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
+BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_cached) {
   const Folder folder("solid");
   const auto store = folder.store();
   const auto problem = ring_mesh(OutsideHeld{}, 2);
@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
   options.sector.held = annulus::fem::HeldBoundary::none;
   options.sector.flank = annulus::geometry::Boundary::trailing_flank;
   options.sector.outputs = {annulus::fem::SectorOutput::outside, annulus::fem::SectorOutput::stress};
-  annulus::test::Verification record("A solid tooth kept for 81, 54 and 24 pins", "the same condensed afresh");
+  annulus::test::Verification record("A solid tooth cached for 81, 54 and 24 pins", "the same condensed afresh");
   const auto same = [&](const char* quantity, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
     record.at_most(quantity, "", static_cast<double>((a.array() != b.array()).count()), 0, same_bits);
   };
@@ -214,26 +214,26 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
     const auto sites = paper_pins(pins, 0.01).supports({162, ring_outside, width, problem.materials.wheel});
     options.arcs = annulus::fem::SupportPlan(sites, 162, edges).arcs();
     options.store = store.get();
-    const auto kept = condense_tooth(mesh, profile, ring_outside, problem.materials.wheel, options);
+    const auto cached = condense_tooth(mesh, profile, ring_outside, problem.materials.wheel, options);
     options.store = nullptr;
     const auto fresh = condense_tooth(mesh, profile, ring_outside, problem.materials.wheel, options);
-    BOOST_TEST(kept.reused == (!first && slices == 2));  // other slices are other unit loads
+    BOOST_TEST(cached.reused == (!first && slices == 2));  // other slices are other unit loads
     first = false;
-    BOOST_TEST(kept.body.acting_wrenches.size() == options.arcs.size());
-    same("entries of the stiffness of the cuts that differ", kept.sector.interface_stiffness,
+    BOOST_TEST(cached.body.acting_wrenches.size() == options.arcs.size());
+    same("entries of the stiffness of the cuts that differ", cached.sector.interface_stiffness,
          fresh.sector.interface_stiffness);
-    same("entries of the loads on the cuts that differ", kept.sector.interface_load, fresh.sector.interface_load);
-    same("entries of the compliance that differ", kept.sector.compliance, fresh.sector.compliance);
-    BOOST_TEST(kept.body.rim.first_load == fresh.body.rim.first_load);
-    BOOST_TEST(kept.sector.compliance.rows() == fresh.body.rim.first_load + fresh.body.rim.loads());
+    same("entries of the loads on the cuts that differ", cached.sector.interface_load, fresh.sector.interface_load);
+    same("entries of the compliance that differ", cached.sector.compliance, fresh.sector.compliance);
+    BOOST_TEST(cached.body.rim.first_load == fresh.body.rim.first_load);
+    BOOST_TEST(cached.sector.compliance.rows() == fresh.body.rim.first_load + fresh.body.rim.loads());
     for (std::size_t arc = 0; arc < options.arcs.size(); ++arc)
-      BOOST_TEST((kept.body.acting_wrenches[arc] == fresh.body.acting_wrenches[arc]));
+      BOOST_TEST((cached.body.acting_wrenches[arc] == fresh.body.acting_wrenches[arc]));
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_damaged_tooth_is_condensed_again) {
   const Folder folder("tooth");
-  annulus::test::Verification record("A kept tooth whose file was cut off", "the result before the damage");
+  annulus::test::Verification record("A cached tooth whose file was cut off", "the result before the damage");
   const auto problem = ring_mesh(OutsideHeld{}, 2);
   const auto first = solve(problem, folder.store());
   const auto damaged = folder.files().front();
@@ -265,7 +265,7 @@ BOOST_AUTO_TEST_CASE(the_folder_keeps_to_its_size) {
                  "the limit");
   count_teeth(record, "teeth condensed the second time: what was used last stays",
               solve(changed, tight).condensed_teeth, 0);
-  // No room at all, or no folder: nothing is kept, and nothing fails.
+  // No room at all, or no folder: nothing is stored, and nothing fails.
   const auto no_room = std::make_shared<ResultStore>(folder.path(), "1", 10);
   count_teeth(record, "teeth condensed without room", solve(problem, no_room).condensed_teeth, 4);
   BOOST_TEST(folder.files().empty());
@@ -276,8 +276,7 @@ BOOST_AUTO_TEST_CASE(the_folder_keeps_to_its_size) {
 
 BOOST_AUTO_TEST_CASE(the_coupling_of_a_ring_on_other_pins_condenses_nothing) {
   const Folder folder("coupling");
-  annulus::test::Verification record("Coupling and modes of a ring that was kept, on other pins",
-                                     "the same without a store");
+  annulus::test::Verification record("Coupling and modes of a cached ring, on other pins", "the same without a store");
   annulus::fem::RingCouplingSettings settings;
   settings.store = folder.store();
   const auto first = solve_ring_coupling(ring_mesh(paper_pins(81, 0), 2), equal_places(5), nominal_load, settings);

@@ -46,7 +46,7 @@ double asymmetry(const LoadedPosition& position) {
   return worst / sum;
 }
 
-BOOST_AUTO_TEST_CASE(straight_teeth_that_are_held_alike_carry_alike_along_the_face) {
+BOOST_AUTO_TEST_CASE(straight_teeth_with_equal_supports_have_an_even_load_along_the_face) {
   annulus::test::Verification record("Line load of straight teeth along the face",
                                      "statics: mean line load; even but for the ends, which are free to widen");
   for (const bool internal : {true, false}) {

@@ -326,7 +326,7 @@ BOOST_AUTO_TEST_CASE(the_tangent_is_the_slope) {
 // Both meshes deflect each other by the same (Maxwell and Betti), each solved by itself with the other one as a given
 // force. That force stands in the theoretical contact and is shared by the tooth pairs by a parabola, not as they share
 // it: this moves it by a fraction of a pitch at the other side of the planet.
-BOOST_AUTO_TEST_CASE(the_meshes_of_a_planet_deflect_each_other_alike) {
+BOOST_AUTO_TEST_CASE(the_meshes_of_a_planet_deflect_each_other_equally) {
   annulus::test::Verification record("Coupling of the meshes of a thin planet",
                                      "reciprocity: solved in the sun mesh and in the ring mesh");
   double worst = 0, largest = 0;

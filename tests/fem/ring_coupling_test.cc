@@ -332,7 +332,7 @@ BOOST_AUTO_TEST_CASE(pins_turned_by_a_tooth_shift_the_ring_positions) {
   BOOST_TEST(apart > 0.1 * scale);  // it does tell
 }
 
-BOOST_AUTO_TEST_CASE(planets_that_stand_alike_couple_alike) {
+BOOST_AUTO_TEST_CASE(planets_in_equal_positions_couple_equally) {
   annulus::test::Verification record("Six planets in equal positions on 18 pins", "symmetry: a circulant matrix");
   // 18 pins and 6 planets on 162 teeth: every planet sees the same, 27 teeth apart.
   const auto solved = solve(paper_pins(18, 0.01), 6);
@@ -429,7 +429,7 @@ BOOST_AUTO_TEST_CASE(the_matrix_of_the_teeth_couples_planets_as_the_coupling_doe
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_linear_ring_couples_alike_at_every_position) {
+BOOST_AUTO_TEST_CASE(a_linear_ring_couples_equally_at_every_position) {
   annulus::test::Verification record("Ten planets on a thin-walled ring",
                                      "symmetry: a linear ring has the same coupling everywhere");
   // Ten planets on a cantilever: near enough to feel each other, 16.2 teeth apart.

@@ -300,7 +300,7 @@ BOOST_AUTO_TEST_CASE(all_modes_together_give_the_static_compliance_and_the_mass)
 
 BOOST_AUTO_TEST_CASE(limits_keep_the_lowest_modes_and_whole_pairs) {
   annulus::test::Verification record("Some of the modes of a held ring",
-                                     "all of its modes: the lowest are kept, and pairs as a whole");
+                                     "all of its modes: the lowest are retained, and pairs as a whole");
   const SmallRing ring = small_ring(30, SmallHeld::outside, {1, 0});
   const auto all = held_ring_modes(ring.flexibility, {all_modes});
   for (std::size_t k = 1; k < all.size(); ++k)
@@ -310,15 +310,15 @@ BOOST_AUTO_TEST_CASE(limits_keep_the_lowest_modes_and_whole_pairs) {
     const double beyond = static_cast<double>(some.size()) - count;
     record.at_least("modes beyond the wanted number", "", beyond, 0, "as many as wanted");
     record.at_most("modes beyond the wanted number", "", beyond, 1, "one more where a pair would be parted");
-    record.at_least("first frequency left out over the last one kept", "",
+    record.at_least("first frequency left out over the last one retained", "",
                     all[some.size()].frequency / some.back().frequency, 1, "a pair is not parted");
     BOOST_TEST(some.back().frequency < all[some.size()].frequency);
     int different = 0;
     for (std::size_t k = 0; k < some.size(); ++k) different += some[k].deflection != all[k].deflection;
-    record.at_most("kept modes that differ", "", different, 0, "equal to the last bit");
+    record.at_most("retained modes that differ", "", different, 0, "equal to the last bit");
   }
   const auto low = held_ring_modes(ring.flexibility, {all_modes, all[6].frequency});
-  record.at_most("last frequency kept over the highest wanted", "", low.back().frequency / all[6].frequency, 1,
+  record.at_most("last frequency retained over the highest wanted", "", low.back().frequency / all[6].frequency, 1,
                  "the limit");
   record.at_least("first frequency left out over the highest wanted", "", all[low.size()].frequency / all[6].frequency,
                   1, "the limit");

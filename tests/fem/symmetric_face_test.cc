@@ -317,7 +317,7 @@ BOOST_AUTO_TEST_CASE(halves_of_teeth_can_be_exchanged) {
                  round_off, "rounding");
 }
 
-BOOST_AUTO_TEST_CASE(a_half_is_not_kept_as_a_whole) {
+BOOST_AUTO_TEST_CASE(a_half_is_not_cached_as_a_whole) {
   const annulus::test::TemporaryFolder folder("symmetric_face");
   annulus::ResultStore store(folder.path(), "test");
   const HalfSector half;

@@ -22,8 +22,8 @@ BOOST_AUTO_TEST_CASE(ring_paper_pairs) {
               5e-7, "half of the last digit");
   record.near("working pressure angle, planet and ring", "deg", ring.working_pressure_angle() / units::deg, 20.860323,
               5e-7, "half of the last digit");
-  // The printed shifts leave about 0.3 um (four digits of x are worth 0.3 um each).
-  const char* digits = "four digits of the profile shift are worth 0.3 um each";
+  // The printed shifts leave about 0.3 um (the last of four digits of x changes it by 0.3 um).
+  const char* digits = "the last of four digits of a profile shift changes it by 0.3 um";
   record.near("normal backlash, sun and planet", "um", sun.normal_backlash() / units::um, 0.3, 0.1, digits);
   record.near("normal backlash, planet and ring", "um", ring.normal_backlash() / units::um, 0.3, 0.1, digits);
 }
@@ -88,7 +88,8 @@ BOOST_AUTO_TEST_CASE(published_helical_pair) {
               digits);
   record.near("normal backlash with the printed profile shift sum", "mm", tight.normal_backlash() / units::mm, 0, 1e-11,
               digits);
-  // 0.03 mm normal backlash; a unit in the last digit of the printed shift is worth 2 m sin(alpha) 1e-9 = 2.4e-9 mm.
+  // 0.03 mm normal backlash; a unit in the last digit of the printed shift changes it by 2 m sin(alpha) 1e-9 = 2.4e-9
+  // mm.
   record.near("normal backlash with the shift sum printed for 0.03 mm", "mm",
               pair(0.639346541).normal_backlash() / units::mm, 0.03, 2e-9, "last printed digit of the profile shift");
 }

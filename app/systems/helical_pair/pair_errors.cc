@@ -77,16 +77,16 @@ void save_pair_errors(const PairErrors& errors, const std::filesystem::path& fol
   if (!errors.law) return;
   std::filesystem::create_directories(folder);
   const auto& problem = *errors.problem;
-  const int kept = std::min(problem.samples, kept_samples);
+  const int stored = std::min(problem.samples, stored_samples);
   Csv samples{.header = provenance(problem),
               .columns = {"sample", "pinion_x1_m", "pinion_x2_m", "pinion_angle_rad", "pinion_error_m", "wheel_x1_m",
                           "wheel_x2_m", "wheel_angle_rad", "wheel_error_m"},
               .rows = {}};
-  samples.header.emplace_back("samples_in_this_file", fmt::format("{}", kept));
+  samples.header.emplace_back("samples_in_this_file", fmt::format("{}", stored));
   auto first = problem;
-  first.samples = kept;  // a draw depends on seed, gear and number alone
+  first.samples = stored;  // a draw depends on seed, gear and number alone
   const auto pinion = dynamics::draw_errors(first, 0), wheel = dynamics::draw_errors(first, 1);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kept); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(stored); ++i) {
     samples.rows.push_back({static_cast<double>(i + 1), pinion.x_1[i], pinion.x_2[i], pinion.angle[i], pinion.error[i],
                             wheel.x_1[i], wheel.x_2[i], wheel.angle[i], wheel.error[i]});
   }

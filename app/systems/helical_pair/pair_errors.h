@@ -22,8 +22,8 @@ struct PairErrors {
 /// Draws the errors; the last law is remembered, because studies ask for the same one again and again.
 [[nodiscard]] PairErrors pair_errors(const Scene& scene);
 
-/// Draws kept in samples.csv at most; the figures are those of all of them.
-inline constexpr int kept_samples = 100'000;
+/// Draws stored in samples.csv at most; the figures are those of all of them.
+inline constexpr int stored_samples = 100'000;
 /// samples.csv, histogram.csv, readings.csv; nothing without a law.
 void save_pair_errors(const PairErrors& errors, const std::filesystem::path& folder);
 

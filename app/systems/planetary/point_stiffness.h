@@ -19,8 +19,8 @@ struct PointStiffness {
 
 /// Reads a square table (docs/exchange.md) of 5 or 6 coordinates per point, <point>_x_m ... <point>_about_z_rad, for
 /// some of the points of `known`, in any order. `turning`: points on which a torque may act; the rotation about z of
-/// one of them is kept where the file has it. `held`: what has to be held while it is measured, for messages. Throws
-/// InputError with what is wrong in it.
+/// one of them is retained where the file has it. `held`: what has to be held while it is measured, for messages.
+/// Throws InputError with what is wrong in it.
 [[nodiscard]] PointStiffness read_point_stiffness(const std::filesystem::path& file,
                                                   const std::vector<std::string>& known,
                                                   const std::vector<std::string>& turning, const std::string& held);

@@ -137,10 +137,11 @@ std::vector<Warning> space_dynamics_warnings(const Scene& scene, const GearGeome
              "has their whole law",
              fmt::join(past_carrier, ", "))});
   if (!directed.empty())
-    list.push_back({"bearings_averaged", Severity::warning,
-                    fmt::format("bearing {} in the housing does not hold alike in all directions; the dynamics has "
-                                "its mean over a turn of the carrier",
-                                fmt::join(directed, ", "))});
+    list.push_back(
+        {"bearings_averaged", Severity::warning,
+         fmt::format("bearing {} in the housing does not have equal stiffness in all directions; the dynamics "
+                     "has its mean over a turn of the carrier",
+                     fmt::join(directed, ", "))});
   std::vector<std::string> assumed;
   for (const auto& [value, key] : {std::pair{&space.tilt_inertia.sun, "sun"},
                                    {&space.tilt_inertia.ring, "ring"},
