@@ -93,7 +93,10 @@ TableLaw::TableLaw(std::vector<double> distance, std::vector<double> force)
     steepest_ = std::max(steepest_, (force_[i] - force_[i - 1]) / (distance_[i] - distance_[i - 1]));
   }
   if (!(force_.back() > force_[force_.size() - 2]))
-    throw InputError("a table of a bearing must rise up to its end, from where it goes on");
+    throw InputError(fmt::format(
+        "a table of a bearing must rise up to its end, from where it goes on: {:g} N at {:g} m follow {:g} N at "
+        "{:g} m",
+        force_.back(), distance_.back(), force_[force_.size() - 2], distance_[distance_.size() - 2]));
 }
 
 ElasticLaw::State TableLaw::at(const Eigen::VectorXd& deflection) const {

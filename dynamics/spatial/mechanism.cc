@@ -229,7 +229,10 @@ class Mechanism::Solver {
       size = std::max(size, (reduced_[e].cwiseAbs().transpose() * at.state[e].force.cwiseAbs()).maxCoeff());
     const double rest = unbalanced(at).cwiseAbs().maxCoeff();
     at.residual_relative = rest == 0 ? 0 : rest / size;
-    if (!std::isfinite(at.residual_relative)) throw SolverError("a force of the equilibrium is not a number");
+    if (!std::isfinite(at.residual_relative))
+      throw SolverError(fmt::format(
+          "a force of the equilibrium is not a finite number: {:g} N are unbalanced, the largest force is {:g} N", rest,
+          size));
     return at.residual_relative;
   }
 

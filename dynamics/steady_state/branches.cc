@@ -62,8 +62,15 @@ class Tracer {
     names_ = first.system.names();
     cycles_ = first.problem.period_in_cycles;
     if (first.system.has_moving_vectors())
-      throw InputError("mesh vectors that move with the mesh (elastic modes of the ring) have no branches");
-    if (first.system.has_friction()) throw InputError("branches are not found with friction on the flanks");
+      throw InputError(fmt::format(
+          "branches are not found where mesh vectors move with the mesh (elastic modes of the ring), as of this "
+          "system of {} degrees of freedom and {} meshes; leave the elastic modes out",
+          first.system.dofs(), meshes_));
+    if (first.system.has_friction())
+      throw InputError(fmt::format(
+          "branches are not found with friction on the flanks, as on those of this system of {} meshes; leave "
+          "the friction out",
+          meshes_));
     stiffness_ = mean_stiffnesses(first.system);
     range_ = options.to - options.from;
     for (const auto* lumped : {&first.problem, &last.problem})

@@ -1,6 +1,7 @@
 #include "fem/condensation/lapack.h"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <vector>
 
@@ -120,7 +121,11 @@ std::pair<Eigen::VectorXd, Eigen::MatrixXd> largest_eigenpairs(Eigen::MatrixXd m
   std::vector<double> work(work_size);
   std::vector<int> integers(integer_size);
   call(work.data(), integers.data());
-  if (info != 0 || found != count) throw SolverError("an eigenvalue problem did not converge");
+  if (info != 0 || found != count)
+    throw SolverError(
+        fmt::format("an eigenvalue problem of {} unknowns did not converge: {} of {} eigenvalues were found (LAPACK "
+                    "dsyevr returned {})",
+                    n, found, count, info));
   return {values.head(count).reverse(), vectors.rowwise().reverse()};
 }
 

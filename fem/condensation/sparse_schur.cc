@@ -48,7 +48,10 @@ cholmod_sparse lower_view(const Eigen::SparseMatrix<double>& lower) {
 Eigen::MatrixXd solve_lower(cholmod_factor* factor, Eigen::MatrixXd& rhs, cholmod_common& common) {
   cholmod_dense view = Eigen::viewAsCholmod(rhs);
   cholmod_dense* solution = cholmod_solve(CHOLMOD_L, factor, &view, &common);
-  if (solution == nullptr) throw SolverError("out of memory while solving with the factorised stiffness matrix");
+  if (solution == nullptr)
+    throw SolverError(fmt::format(
+        "out of memory while solving with the factorised stiffness of a sector: {} loads on {} DOFs need {:.3g} MB",
+        rhs.cols(), rhs.rows(), static_cast<double>(rhs.size()) * sizeof(double) / 1e6));
   Eigen::MatrixXd result =
       Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), rhs.rows(), rhs.cols());
   cholmod_free_dense(&solution, &common);

@@ -85,7 +85,8 @@ class ByteReader {
   template <class T, int rows, int columns>
   void get(Eigen::Matrix<T, rows, columns>& matrix) {
     const std::size_t m = count(), n = count();
-    if (n > 0 && m > left_.size() / sizeof(T) / n) throw Error("a stream that ends too early");
+    if (n > 0 && m > left_.size() / sizeof(T) / n)
+      ends_early("a matrix of " + std::to_string(m) + " x " + std::to_string(n) + " values");
     matrix.resize(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(n));
     raw(matrix.data(), sizeof(T) * m * n);
   }
@@ -93,13 +94,16 @@ class ByteReader {
   std::size_t count() {
     std::uint64_t n = 0;
     get(n);
-    if (n > left_.size()) throw Error("a stream that ends too early");
+    if (n > left_.size()) ends_early(std::to_string(n) + " values");
     return n;
   }
   void raw(void* bytes, std::size_t count) {
-    if (count > left_.size()) throw Error("a stream that ends too early");
+    if (count > left_.size()) ends_early(std::to_string(count) + " bytes");
     if (count > 0) std::memcpy(bytes, left_.data(), count);
     left_.remove_prefix(count);
+  }
+  [[noreturn]] void ends_early(const std::string& needed) const {
+    throw Error("a stream that ends too early: " + needed + " needed, " + std::to_string(left_.size()) + " bytes left");
   }
 
   std::string_view left_;

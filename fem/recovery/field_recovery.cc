@@ -1,5 +1,7 @@
 #include "fem/recovery/field_recovery.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/CholmodSupport>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -74,7 +76,11 @@ FieldRecovery::FieldRecovery(const GearBody& body, const BodySource& source, con
   inner.finalize();
   lapack::use_one_thread();
   in.factor.compute(inner);
-  if (in.factor.info() != Eigen::Success) throw SolverError("the stiffness of a tooth is not positive definite");
+  if (in.factor.info() != Eigen::Success)
+    throw SolverError(
+        fmt::format("the stiffness of a tooth ({} DOFs, E = {:g} Pa, Poisson's ratio {:g}) is not positive definite: a "
+                    "cell of its mesh is inverted",
+                    in.size, material.youngs_modulus, material.poisson_ratio));
 }
 
 FieldRecovery::~FieldRecovery() = default;

@@ -162,7 +162,10 @@ void check_places(std::vector<double> teeth_ahead, int teeth) {
 
 void check(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,
            const RingCouplingSettings& settings) {
-  if (!problem.pair.internal()) throw InputError("the coupling of ring meshes needs a planet-ring pair");
+  if (!problem.pair.internal())
+    throw InputError(
+        fmt::format("the coupling of ring meshes needs a planet and a ring, not an external pair of {} and {} teeth",
+                    problem.pair.pinion().teeth(), problem.pair.wheel().teeth()));
   const int last = solved_as_solid(problem, settings.model) ? last_solid_level : last_plane_level;
   if (settings.level < 1 || settings.level > last)
     throw InputError(fmt::format("level {} is not available: 1 to {} are", settings.level, last));

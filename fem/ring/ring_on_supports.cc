@@ -1,6 +1,9 @@
 #include "fem/ring/ring_on_supports.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "core/errors.h"
@@ -18,14 +21,23 @@ namespace {
 Eigen::MatrixXd eliminate_supports(const Eigen::MatrixXd& F, const Eigen::MatrixXd& U, const Eigen::MatrixXd& C,
                                    const Eigen::MatrixX3d& R_f, const Eigen::MatrixX3d& R_p) {
   const Eigen::LLT<Eigen::MatrixXd> factor(C);
-  if (factor.info() != Eigen::Success)
-    throw SolverError("the compliance of the ring's supports is not positive definite");
+  if (factor.info() != Eigen::Success) {
+    const auto values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(C, Eigen::EigenvaluesOnly).eigenvalues();
+    throw SolverError(fmt::format(
+        "the compliance of the {} supports of the ring is not positive definite: its eigenvalues lie between "
+        "{:.4g} and {:.4g} m/N",
+        C.rows(), values.minCoeff(), values.maxCoeff()));
+  }
   const Eigen::MatrixXd u = factor.matrixL().solve(U);
   const Eigen::MatrixXd r = factor.matrixL().solve(R_p);
   const Eigen::MatrixXd Q = R_f - u.transpose() * r;
   const Eigen::LDLT<Eigen::MatrixXd> rigid(r.transpose() * r);
-  if (rigid.info() != Eigen::Success || rigid.rcond() < 1e-12)
-    throw SolverError("the supports that touch do not hold the ring");
+  constexpr double least_rcond = 1e-12;
+  if (rigid.info() != Eigen::Success || rigid.rcond() < least_rcond)
+    throw SolverError(fmt::format(
+        "the {} supports that touch do not hold the ring: the reciprocal condition number of its rigid motion "
+        "is {:.2g}, at least {:g} is needed; use more supports, or less play",
+        C.rows(), rigid.rcond(), least_rcond));
   Eigen::MatrixXd result = F - u.transpose() * u + Q * rigid.solve(Q.transpose());
   return 0.5 * (result + result.transpose());
 }

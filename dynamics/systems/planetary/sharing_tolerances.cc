@@ -1,6 +1,7 @@
 #include "dynamics/systems/planetary/sharing_tolerances.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -287,7 +288,12 @@ AssemblySharing assembly_sharing(const PlanetaryStage& stage, const StageToleran
     contribution.alone = at_nominal(alone);
     contribution.without = at_nominal(without);
   }
-  if (result.contributions.empty()) throw InputError("load sharing over tolerances needs a tolerance above zero");
+  if (result.contributions.empty()) {
+    std::vector<std::string> names;
+    for (const auto& zone : zones) names.emplace_back(zone.name);
+    throw InputError(fmt::format("load sharing over tolerances needs a tolerance above zero: {} are all 0 m",
+                                 fmt::join(names, ", ")));
+  }
   return result;
 }
 
