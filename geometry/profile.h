@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 
+#include "core/not_known.h"
 #include "geometry/gear.h"
 #include "geometry/root_fillet.h"
 
@@ -81,10 +81,10 @@ class ToothProfile {
   /// its centre of curvature. `outside_radius` is needed for Boundary::outside only (ExtrudeOptions::outside_radius),
   /// m.
   [[nodiscard]] Eigen::Vector2d project(Boundary boundary, const Eigen::Vector2d& point, double support_radius,
-                                        double outside_radius = std::numeric_limits<double>::quiet_NaN()) const;
+                                        double outside_radius = not_known) const;
   /// The same on the body extruded with twist(): the point of the boundary curve in the section at the point's own z.
   [[nodiscard]] Eigen::Vector3d project_solid(Boundary boundary, const Eigen::Vector3d& point, double support_radius,
-                                              double outside_radius = std::numeric_limits<double>::quiet_NaN()) const;
+                                              double outside_radius = not_known) const;
 
  private:
   Gear gear_;

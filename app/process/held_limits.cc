@@ -4,11 +4,11 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <mutex>
 
 #include "core/log.h"
+#include "core/stopwatch.h"
 
 namespace annulus::app {
 
@@ -16,7 +16,7 @@ namespace {
 
 struct Held {
   HeldLimits limits;
-  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  Stopwatch stopwatch{};
 };
 
 /// Never destroyed: the thread that asks goes on while the process ends.
@@ -81,7 +81,7 @@ void set_running_step(const std::string& label) {
 std::string exceeded_limit() {
   const auto h = held_now();
   if (!h) return "";
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - h->start).count();
+  const double seconds = h->stopwatch.seconds();
   const double memory = std::max(peak_memory_MB(), memory_of_measured_MB());
   const bool too_large = memory > h->limits.memory_MB;
   if (!too_large && seconds <= h->limits.seconds) return "";

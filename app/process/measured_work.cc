@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -17,6 +16,7 @@
 
 #include "app/process/interruption.h"
 #include "core/errors.h"
+#include "core/stopwatch.h"
 
 namespace annulus::app {
 
@@ -69,7 +69,7 @@ MeasuredWork measured(const std::function<std::string()>& work) {
   int ends[2];
   if (::pipe(ends) != 0) throw SolverError(fmt::format("no pipe to a measured process: {}", std::strerror(errno)));
   std::fflush(nullptr);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const pid_t child = ::fork();
   if (child < 0) {
     ::close(ends[0]);
@@ -87,8 +87,8 @@ MeasuredWork measured(const std::function<std::string()>& work) {
   while (::wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
   }
   MeasuredWork result;
-  result.cost = {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-                 seconds(usage.ru_utime) + seconds(usage.ru_stime), static_cast<double>(usage.ru_maxrss) / 1024};
+  result.cost = {stopwatch.seconds(), seconds(usage.ru_utime) + seconds(usage.ru_stime),
+                 static_cast<double>(usage.ru_maxrss) / 1024};
   if (!message.empty() && message.front() == answered && WIFEXITED(status)) {
     result.answer = message.substr(1);
   } else if (!message.empty() && message.front() == failed) {

@@ -7,10 +7,10 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "app/process/held_limits.h"
 #include "core/log.h"
+#include "core/not_known.h"
 
 namespace annulus::app {
 
@@ -23,7 +23,7 @@ void show_progress(bool show) { progress_shown = show; }
 double time_left(double fraction, double passed, double predicted) {
   const bool known = predicted > 0;  // false for NaN
   if (fraction >= 1) return 0;
-  if (fraction <= 0) return known ? std::max(0.0, predicted - passed) : std::numeric_limits<double>::quiet_NaN();
+  if (fraction <= 0) return known ? std::max(0.0, predicted - passed) : not_known;
   const double by_fraction = passed * (1 - fraction) / fraction;
   if (!known) return by_fraction;
   return fraction * by_fraction + (1 - fraction) * std::max(0.0, predicted - passed);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/sections/report_parts.h"
+#include "core/not_known.h"
 
 namespace annulus::app {
 
@@ -30,7 +31,7 @@ class RowsAt {
   [[nodiscard]] double at_load(double load, const std::string& column) const {
     for (const auto* row : rows_)
       if (value(row, "load_N") == load) return value(row, column);
-    return NAN;
+    return not_known;
   }
 
  private:

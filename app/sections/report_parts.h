@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "app/model/system_run.h"
 #include "app/report/page.h"
 #include "app/report/section.h"
+#include "core/not_known.h"
 #include "core/readable_unit.h"
 #include "dynamics/steady_state/steady_response.h"
 
@@ -127,7 +127,7 @@ struct RunPage {
 struct NamedOutcome {
   std::string name;
   const dynamics::SteadyOutcome* outcome = nullptr;
-  double force_balance = std::numeric_limits<double>::quiet_NaN();  ///< relative; NaN: not known
+  double force_balance = not_known;  ///< relative; NaN: not known
 };
 [[nodiscard]] Blocks solution_checks(const std::vector<NamedOutcome>& responses);
 

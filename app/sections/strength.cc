@@ -6,6 +6,7 @@
 
 #include "app/sections/report_parts.h"
 #include "core/errors.h"
+#include "core/not_known.h"
 #include "core/units.h"
 #include "geometry/iso6336.h"
 
@@ -66,7 +67,7 @@ double largest_pressure(const MeshResult& mesh) {
   const auto& csv = mesh.positions;
   const auto load = csv.column("load_N"), edge = csv.column("tip_edge_contact"),
              pressure = csv.column("max_pressure_MPa");
-  double largest = NAN;
+  double largest = not_known;
   for (const auto& row : csv.rows)
     if (row[load] == mesh.table.loads()[mesh.nominal] && row[edge] == 0)
       largest = std::fmax(largest, row[pressure] * MPa);

@@ -13,6 +13,7 @@
 #include "app/study/study_points.h"
 #include "core/errors.h"
 #include "core/files.h"
+#include "core/not_known.h"
 #include "core/parallel.h"
 
 namespace annulus::app {
@@ -104,7 +105,7 @@ class DesignObjective {
   [[nodiscard]] std::vector<double> given() const {
     std::vector<double> x;
     for (const auto& v : scene_.variables)
-      x.push_back(input_value(scene_, find_input(scene_, v.input), variant_).value_or(std::nan("")));
+      x.push_back(input_value(scene_, find_input(scene_, v.input), variant_).value_or(not_known));
     return x;
   }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -21,6 +20,7 @@
 #include "core/json.h"
 #include "core/log.h"
 #include "core/result_store.h"
+#include "core/stopwatch.h"
 
 namespace annulus {
 
@@ -90,10 +90,9 @@ std::vector<TradePoint> measured_one_by_one(const std::string& name, const std::
   const auto share = [&](const TradeStep& step) {
     return total > 0 ? step.predicted / total : 1.0 / static_cast<double>(steps.size());
   };
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   for (const auto& step : steps) {
-    const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const double left = time_left(done, passed, total);
+    const double left = time_left(done, stopwatch.seconds(), total);
     log::info(fmt::format("tradeoff of '{}': {} ({} of {}{})", name, step.what, points.size() + 1, steps.size(),
                           std::isfinite(left) ? ", about " + duration_text(left) + " left" : ""));
     points.push_back(step.measure());

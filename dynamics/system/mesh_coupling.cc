@@ -3,9 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/errors.h"
+#include "core/not_known.h"
 #include "dynamics/system/lumped_system.h"
 #include "dynamics/system/lumped_system_compiled.h"
 
@@ -114,7 +114,7 @@ void solve_coupling(const CompiledCoupling& coupling, const std::vector<Compiled
     matrix.diagonal().array() += 1;
     force += (step < full_steps ? 1.0 : shortened) * matrix.partialPivLu().solve(residual);
   }
-  for (const int m : coupling.meshes) w.elastic[m] = std::numeric_limits<double>::quiet_NaN();
+  for (const int m : coupling.meshes) w.elastic[m] = not_known;
 }
 
 CouplingMatrix coupled_tangent(const CompiledCoupling& coupling, const LumpedSystem::Workspace& w) {

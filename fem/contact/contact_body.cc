@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/errors.h"
+#include "core/not_known.h"
 #include "fem/condensation/lapack.h"
 
 namespace annulus::fem {
@@ -285,7 +285,7 @@ Eigen::MatrixXd CondensedBody::near_field(const FlankPatch& patch) const {
   // Loads that share no slice never meet.
   std::vector<std::vector<std::size_t>> in_slice(slices());
   for (std::size_t e = 0; e < patch.elements.size(); ++e) in_slice[patch.elements[e].slice].push_back(e);
-  Eigen::MatrixXd half_plane = Eigen::MatrixXd::Constant(loads, loads, std::numeric_limits<double>::quiet_NaN());
+  Eigen::MatrixXd half_plane = Eigen::MatrixXd::Constant(loads, loads, not_known);
   const auto elements = static_cast<Eigen::Index>(patch.elements.size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(elements, elements);
   for (int s = 0; s < slices(); ++s)

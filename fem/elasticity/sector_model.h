@@ -4,11 +4,11 @@
 #include <Eigen/SparseCore>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <set>
 #include <vector>
 
+#include "core/not_known.h"
 #include "fem/elasticity/nodal_load.h"
 #include "fem/problem/material.h"
 #include "geometry/mesh.h"
@@ -80,7 +80,7 @@ struct SectorModelOptions {
   std::optional<geometry::Boundary> axial_support{};
   geometry::Boundary flank = geometry::Boundary::leading_flank;
   /// Outside radius of a ring whose hoop or flange goes beyond it, m (see geometry::ExtrudeOptions).
-  double outside_radius = std::numeric_limits<double>::quiet_NaN();
+  double outside_radius = not_known;
   /// z (m) whose section the free outside of a helical ring keeps (geometry::ExtrudeOptions::straight): its polar
   /// angles count from there. Absent: it is twisted like the teeth.
   std::optional<double> straight_z{};

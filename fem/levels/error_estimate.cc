@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
+#include "core/not_known.h"
 #include "fem/body/resolution.h"
 
 namespace annulus::fem {
@@ -122,8 +122,7 @@ BodyStress largest_stress_errors(const LoadedMeshProblem& problem, const std::ve
         difference = std::max(difference.value_or(0), std::abs(size - stress_size(coarser[i], body, value)));
         roughness = std::max(roughness, (*(positions[i].*body)).roughness.*value);
       }
-    result.*value = left.difference * difference.value_or(std::numeric_limits<double>::quiet_NaN()) +
-                    left.notch_of(value) * largest + roughness;
+    result.*value = left.difference * difference.value_or(not_known) + left.notch_of(value) * largest + roughness;
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include "app/report/plot/chart.h"
 #include "app/report/plot/colour_scale.h"
 #include "app/report/text/svg.h"
+#include "core/not_known.h"
 
 /// The kinds of plots as marks.
 namespace annulus::app {
@@ -13,7 +14,7 @@ namespace {
 using Kind = Mark::Kind;
 
 constexpr const char *reference_colour = "#777", *known_colour = "#222222";
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();  // lifts the pen
+constexpr double nothing = not_known;  // lifts the pen
 
 double largest_known(double error) { return error > 0 && std::isfinite(error) ? error : 0; }
 

@@ -8,6 +8,7 @@
 #include "app/results/content_id.h"
 #include "core/csv.h"
 #include "core/errors.h"
+#include "core/not_known.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -133,7 +134,7 @@ void write_vibration(const TwoKVVibration& v, const std::filesystem::path& folde
   for (std::size_t i = 0; i < v.inputs.size(); ++i) {
     const auto& input = v.inputs[i];
     inputs.header.emplace_back(fmt::format("input_{}", i + 1), input.key);
-    const double none = std::nan("");
+    const double none = not_known;
     inputs.rows.push_back({static_cast<double>(i + 1), input.value, input.sensitivity, input.band.low.value_or(none),
                            input.band.high.value_or(none)});
   }

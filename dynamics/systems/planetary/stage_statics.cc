@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "core/not_known.h"
 #include "core/parallel.h"
 
 namespace annulus::dynamics {
@@ -147,7 +148,7 @@ StaticFigures::Mesh mesh_figures(const StaticTurn& turn, std::vector<StaticMesh>
       sum += f;
       largest = std::max(largest, std::abs(f));
     }
-    return sum == 0 ? std::numeric_limits<double>::quiet_NaN() : largest * static_cast<double>(planets) / std::abs(sum);
+    return sum == 0 ? not_known : largest * static_cast<double>(planets) / std::abs(sum);
   };
   for (std::size_t place = 0; place < turn.schedule.cycles.size(); ++place) {
     std::vector<MeshCycle> cycle(planets);

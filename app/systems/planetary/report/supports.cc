@@ -5,6 +5,7 @@
 
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/systems/planetary/ring_structures.h"
+#include "core/not_known.h"
 
 namespace annulus::app {
 
@@ -75,7 +76,7 @@ std::vector<std::pair<double, double>> contact_line(const States& states) {
     const double contact = first + std::fmod(supports.front()[k].contact - first + 720, 360.0);
     const double cycle = (static_cast<double>(k) + 0.5) / states.per_cycle;
     if (contact > last) {
-      line.emplace_back(cycle, NAN);  // between the last and the first one
+      line.emplace_back(cycle, not_known);  // between the last and the first one
       continue;
     }
     std::size_t i = 1;
