@@ -59,7 +59,7 @@ class StiffnessTable {
 /// A periodic, continuously differentiable curve through equidistant values; period 1 per `values_per_unit` values.
 ///
 /// The argument is the number of mesh cycles passed (position + phase), of any sign and size. Cubic Hermite pieces with
-/// makima slopes (Akima 1970, modified): local (five values), exact for constants, no ringing beside a plateau, second
+/// makima slopes ([Akima1970], modified): local (five values), exact for constants, no ringing beside a plateau, second
 /// order in the spacing near extrema and third elsewhere. It is not monotone everywhere: beside a steep flank it may
 /// pass the data slightly.
 class PeriodicCurve {

@@ -8,7 +8,7 @@
 namespace annulus::geometry {
 
 /// What a flank differs by from its involute, over the radius: material removed normal to the flank, m. Between the
-/// given radii by local cubics (modified Akima); beyond them the end value holds. Without values it is 0.
+/// given radii by local cubics ([Akima1970], modified); beyond them the end value holds. Without values it is 0.
 class FlankCurve {
  public:
   FlankCurve() = default;

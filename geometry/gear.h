@@ -10,7 +10,7 @@ class FlankTopography;
 enum class GearKind { external, internal };
 
 /// Input of one spur or helical gear; SI. Module, pressure angle, profile shift and the factors are those of the normal
-/// section (ISO 21771). Sign rule for internal gears (ISO 21771 with positive diameters): every diameter and the tooth
+/// section [ISO21771]. Sign rule for internal gears ([ISO21771] with positive diameters): every diameter and the tooth
 /// count are positive and a positive profile shift moves the tooth space outwards, so that x_r - x_p enters the
 /// internal mesh and x_s + x_p the external one.
 struct GearParameters {
@@ -47,7 +47,7 @@ struct GearParameters {
 /// Whether they were measured.
 [[nodiscard]] bool measured(const GearParameters& parameters);
 
-/// A gear with its derived dimensions (ISO 21771). Angles and thicknesses on circles are those of the transverse
+/// A gear with its derived dimensions [ISO21771]. Angles and thicknesses on circles are those of the transverse
 /// section unless they say otherwise. Construction throws GeometryError with the reason when the gear cannot exist: tip
 /// below base, pointed tooth (thinner than 0.2 modules at the tip, in the normal section), deep undercut, no room for a
 /// root fillet, non-positive sizes, pressure angle outside 10 to 35 degrees, helix angle beyond 45 degrees.
@@ -68,7 +68,7 @@ class Gear {
   [[nodiscard]] double reference_radius() const { return transverse_module_ * p_.teeth / 2; }  ///< m_t z / 2
   [[nodiscard]] double base_radius() const { return base_radius_; }                            ///< r_b
   [[nodiscard]] double tip_radius() const;  ///< internal: smaller than the root radius
-  /// Where the flank ends towards the tip: at the tip circle, or at its chamfer (d_Fa of ISO 21771).
+  /// Where the flank ends towards the tip: at the tip circle, or at its chamfer (d_Fa of [ISO21771]).
   [[nodiscard]] double tip_form_radius() const;
   [[nodiscard]] double root_radius() const;
   /// p_bt = 2 pi r_b / z, distance of teeth along the line of action in the transverse section.
@@ -82,7 +82,7 @@ class Gear {
   /// Tooth thickness along the arc at radius r, m.
   [[nodiscard]] double tooth_thickness(double radius) const { return 2 * radius * tooth_half_angle(radius); }
   /// Base tangent length W_k over k teeth (external) or k spaces (internal), without backlash, normal to the flanks,
-  /// ISO 21771, m. Of a helical gear it can be measured when the face width exceeds W_k sin(beta_b).
+  /// [ISO21771], m. Of a helical gear it can be measured when the face width exceeds W_k sin(beta_b).
   [[nodiscard]] double base_tangent_length(int k) const;
 
  private:

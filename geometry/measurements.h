@@ -28,7 +28,7 @@ namespace annulus::geometry {
 [[nodiscard]] double shift_from_span(const GearParameters& gear, int teeth, double length);
 /// Throws GeometryError where pins of this diameter cannot lie at this dimension.
 [[nodiscard]] double shift_from_pins(const GearParameters& gear, double pin_diameter, double dimension);
-/// With an addendum of one module and a dedendum of 1.25 modules (ISO 53, profile A).
+/// With an addendum of one module and a dedendum of 1.25 modules [ISO53, profile A].
 [[nodiscard]] double shift_from_tip_diameter(const GearParameters& gear, double diameter);
 [[nodiscard]] double shift_from_root_diameter(const GearParameters& gear, double diameter);
 

@@ -38,7 +38,7 @@ class PlanetarySet {
   /// Room between the tip circles of neighbouring planets, modules: a fifth of a module for lubricant and deflection.
   static constexpr double planet_clearance = 0.2;
 
-  /// Mesh phasing (Parker and Lin, J. Mech. Des. 126, 2004), derived from the geometry, in mesh cycles in [0, 1).
+  /// Mesh phasing [ParkerLin2004], derived from the geometry, in mesh cycles in [0, 1).
   /// At time t the sun mesh of planet n is at phase f t - sun_phase_lag(n), its ring mesh at f t - ring_phase_lag(n),
   /// f being the mesh frequency and phase 0 the pitch-point contact of a tooth pair (see StiffnessTable).
   /// sun_phase_lag(0) = 0. Seen from the carrier the sun drives counter-clockwise, planets and ring turn clockwise, and

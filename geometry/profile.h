@@ -65,7 +65,7 @@ class ToothProfile {
   /// the end of the flank, a parabola of height `profile_crowning` at both its ends, and `profile_slope` from the form
   /// circle to the tip (> 0) or the other way (< 0). Beyond them the end value holds.
   [[nodiscard]] double modification(double roll_length) const;
-  /// Material removed normal to the flank along the face width b, m, >= 0, z from 0 to b (ISO 21771 lead crowning and
+  /// Material removed normal to the flank along the face width b, m, >= 0, z from 0 to b ([ISO21771], lead crowning and
   /// helix slope): the parabola lead_crowning (2 z / b - 1)^2, plus lead_slope z / b when the slope is positive and
   /// |lead_slope| (1 - z / b) when it is negative. Beyond the ends the end value holds.
   [[nodiscard]] double lead_modification(double z) const;

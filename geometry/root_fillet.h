@@ -9,12 +9,12 @@ namespace annulus::geometry {
 
 /// Root fillet on the leading side of tooth 0, in the gear's own frame (see profile.h); SI.
 ///
-/// External: envelope of the rounded tip corner of the generating rack (Litvin and Fuentes, Gear Geometry and Applied
-/// Theory, ch. 6). The rack touches the fillet along its corner normal, which makes an angle beta with the centre line
-/// of the space: beta = 0 on the root circle, beta = pi/2 - alpha_t where the fillet meets the involute. The rack of a
-/// helical gear has a circular corner in its normal section; its transverse section, which rolls on the transverse
-/// section of the gear, has an elliptic one, wider by 1 / cos(helix angle). That is exact, not an approximation.
-/// Internal: a circular arc tangent to involute and root circle, in the transverse section of a helical gear too.
+/// External: envelope of the rounded tip corner of the generating rack [LitvinFuentes2004, ch. 6]. The rack touches the
+/// fillet along its corner normal, which makes an angle beta with the centre line of the space: beta = 0 on the root
+/// circle, beta = pi/2 - alpha_t where the fillet meets the involute. The rack of a helical gear has a circular corner
+/// in its normal section; its transverse section, which rolls on the transverse section of the gear, has an elliptic
+/// one, wider by 1 / cos(helix angle). That is exact, not an approximation. Internal: a circular arc tangent to
+/// involute and root circle, in the transverse section of a helical gear too.
 ///
 /// Where the corner undercuts, its path crosses the involute: the fillet then ends there, in an edge, above the base
 /// circle. A rack with a protuberance always leaves such an edge: its corner touches a parallel to the flank, further

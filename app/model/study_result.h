@@ -98,7 +98,7 @@ struct PairedOrder {
   std::size_t a = 0, b = 0;
   std::string figure;
   long above = 0, equal = 0, samples = 0;  ///< samples: both succeeded
-  dynamics::Interval share{};              ///< above / samples, Clopper and Pearson
+  dynamics::Interval share{};              ///< above / samples [ClopperPearson1934]
   dynamics::Interval difference{};         ///< mean of a's figure less b's, Student
 };
 

@@ -12,7 +12,7 @@ namespace annulus::app {
 
 namespace {
 
-/// Stiffness of a mesh per unit of face width, in Young's moduli: 20 N/(mm um) for steel, the usual mean (ISO 6336-1).
+/// Stiffness of a mesh per unit of face width, in Young's moduli: 20 N/(mm um) for steel, the usual mean [ISO6336-1].
 constexpr double usual_mesh_stiffness = 0.1;
 
 constexpr const char* no_engagement = "beyond that the teeth hardly engage";

@@ -140,7 +140,7 @@ struct NamedOutcome {
 [[nodiscard]] Section contact_section(const NamedMeshes& meshes);  ///< face width, pressure, stress
 /// Largest root and rim stresses at every load of the tables, with their errors; empty without computed ones.
 [[nodiscard]] Blocks stresses_by_load(const NamedMeshes& meshes);
-/// Local stresses and pressures beside the nominal ones of ISO 6336; empty without computed ones.
+/// Local stresses and pressures beside the nominal ones of [ISO6336-2] and [ISO6336-3]; empty without computed ones.
 [[nodiscard]] Blocks beside_iso_6336(const NamedMeshes& meshes);
 
 // studies.cc, sweeps.cc, grids.cc, load_spectrum.cc, transients.cc, spread.cc, sensitivity.cc, optimise.cc

@@ -22,7 +22,7 @@ struct BranchResult {
   /// K_γ K_V: max |F| / nominal force over the window (peaks refined between the samples), on whichever flanks it acts.
   Figure peak_factor;
   /// K_V: max |F| / |mean of F over the mesh cycle around that instant|. It contains no load sharing: the base
-  /// load is that of ISO 6336-1 [ISO6336-1], F_t K_A K_γ. In a window that does not repeat, the cycles at its ends are
+  /// load is that of [ISO6336-1], F_t K_A K_γ. In a window that does not repeat, the cycles at its ends are
   /// its first and its last whole one. Not known for a mesh that carries nothing.
   Figure dynamic_factor;
   double smallest_factor = 0;  ///< min F / nominal force, negative on back flanks

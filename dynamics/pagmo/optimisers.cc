@@ -38,8 +38,8 @@ Method make_method(const OptimiseOptions& o, unsigned seed) {
                         "polynomial", "truncated", seed);
     }
     case Optimiser::cma_es: {
-      constexpr double by_size = -1;  // learning rates after Hansen
-      constexpr double width = 0.3;   // of the unit cube: what Hansen recommends for a known range
+      constexpr double by_size = -1;  // learning rates of [Hansen2006]
+      constexpr double width = 0.3;   // of the unit cube: what [Hansen2006] recommends for a known range
       constexpr double collapsed = 1e-15;
       return pagmo::cmaes(one_generation, by_size, by_size, by_size, by_size, width, collapsed, collapsed, true, true,
                           seed);

@@ -15,7 +15,8 @@ struct CurvePoint {
   double g = 0, force = 0, tangent = 0;
 };
 
-/// Gregory and Delbourgo's rational quadratic between two points with positive tangents: rises everywhere between.
+/// The rational quadratic of [GregoryDelbourgo1982] between two points with positive tangents: rises everywhere
+/// between.
 ForceSurface::Value rational_quadratic(const CurvePoint& a, const CurvePoint& b, double g) {
   const double width = b.g - a.g, secant = (b.force - a.force) / width, x = (g - a.g) / width, rest = 1 - x;
   const double bend = a.tangent + b.tangent - 2 * secant, denominator = secant + bend * x * rest;

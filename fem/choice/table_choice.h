@@ -31,7 +31,7 @@ struct TableResolution {
 [[nodiscard]] TableResolution table_resolution(double accuracy, double uptake, double overlap_ratio);
 /// From the deflection under the nominal force (N) on a face (m) and the module (m): beyond its path of contact the gap
 /// of a pair opens with the square of the way, so that the way it is closed over goes with the root of the deflection.
-/// The stiffness is that of ISO 6336-1, about 14 N/(mm um) for steel, whatever the rim: a soft one only makes it
+/// The stiffness is that of [ISO6336-1], about 14 N/(mm um) for steel, whatever the rim: a soft one only makes it
 /// longer.
 [[nodiscard]] double load_uptake(double force, double face_width, double module, double youngs_modulus);
 

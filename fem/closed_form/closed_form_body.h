@@ -26,7 +26,7 @@ struct RimModel {
 
 /// A gear in closed form: teeth as cantilevers on a plain ring between the root circle and the support circle. Loads
 /// enter the ring over the roots of the teeth (uniform axial and transverse tractions, linear ones for the moment, as
-/// in Sainsot, Velex and Duverger 2004) and over the arcs of the supports; what a load does is measured by the work of
+/// in [SainsotVelexDuverger2004]) and over the arcs of the supports; what a load does is measured by the work of
 /// these tractions, so that reciprocity is exact. Neighbouring teeth are coupled through the ring.
 ///
 /// On its own supports a ring yields as a whole: to the foundation with the outside held is added what the rim yields

@@ -20,7 +20,7 @@ struct FlankGap {
 };
 
 /// Where two half planes touch along a convex gap, without friction: the solution of the singular integral equation of
-/// the half plane (Johnson, Contact Mechanics, section 2.7), with a pressure that vanishes at the ends of the patch
+/// the half plane [Johnson1985, sec. 2.7], with a pressure that vanishes at the ends of the patch
 /// unless an end of the gap cuts it, where it is singular. With the half-width a and the middle c, x = c + a cos(t),
 ///
 ///     S = 1/pi int_0^pi h'(x) dt,   m = 1/pi int_0^pi h'(x) a cos(t) dt

@@ -15,12 +15,12 @@ namespace annulus::fem {
 ///
 ///     delta = 2 (1 - nu^2) F' / (pi E) [asinh(h/a) - nu/(1-nu) (h/a) (sqrt(1 + (h/a)^2) - h/a)]
 ///
-/// It follows from the stresses on the axis below the contact (Johnson, Contact Mechanics, eq. 4.46) by integration of
-/// the strain, plane strain; deep below the contact the bracket is ln(2h/a) - nu / (2 (1 - nu)), the form of Weber and
-/// Banaschek (1953) and of Johnson's eq. 5.57. Whatever the gap, an increment of the force acts on the patch as it is,
-/// like a flat punch: as in Hertz's contact of the same width, d delta = 2 (1 - nu^2) dF' / (pi E) B(a), B being
-/// (1 + 1/2 d/d ln a) of that bracket. Summed over the growth of the patch (fem/closed_form/contact_patch.h) this gives
-/// the approach.
+/// It follows from the stresses on the axis below the contact [Johnson1985, eq. 4.46] by integration of
+/// the strain, plane strain; deep below the contact the bracket is ln(2h/a) - nu / (2 (1 - nu)), the form of
+/// [WeberBanaschek1953] and of [Johnson1985, eq. 5.57]. Whatever the gap, an increment of the force acts on the patch
+/// as it is, like a flat punch: as in Hertz's contact of the same width, d delta = 2 (1 - nu^2) dF' / (pi E) B(a), B
+/// being (1 + 1/2 d/d ln a) of that bracket. Summed over the growth of the patch (fem/closed_form/contact_patch.h) this
+/// gives the approach.
 ///
 /// Where the teeth yield more towards one side, by 2 `tilt` x, the patch moves and its increments act at its middle c:
 ///
@@ -30,8 +30,8 @@ namespace annulus::fem {
 ///
 /// Within some `edge_reach` h of its tip edge a tooth is no half space but a wedge with the angle 2 alpha of its
 /// corner. Loads on the corner of a wedge, across and along its axis, yield 1/(alpha - sin(2 alpha)/2) and
-/// 1/(alpha + sin(2 alpha)/2) for the 2/pi of a half plane (Michell; Timoshenko and Goodier, art. 38), a load normal to
-/// the flank
+/// 1/(alpha + sin(2 alpha)/2) for the 2/pi of a half plane (Michell's solution [TimoshenkoGoodier1970, art. 38]), a
+/// load normal to the flank
 ///
 ///     1 + k = pi/2 [cos^2(alpha) / (alpha - sin(2 alpha)/2) + sin^2(alpha) / (alpha + sin(2 alpha)/2)]
 ///

@@ -24,8 +24,8 @@ using HarmonicCompliance = Eigen::Matrix4d;
 
 enum class HeldCircle { none, inner, outer };
 
-/// Exact plane elasticity: solutions of Navier's equations in powers of r (Michell 1899; Timoshenko and Goodier, Theory
-/// of Elasticity, art. 43), four for each harmonic. Sainsot, Velex and Duverger (2004) use the same elastic ring for
+/// Exact plane elasticity: solutions of Navier's equations in powers of r [Michell1899;
+/// TimoshenkoGoodier1970, art. 43], four for each harmonic. [SainsotVelexDuverger2004] uses the same elastic ring for
 /// the foundation of external teeth.
 [[nodiscard]] HarmonicCompliance elastic_ring(const PlainRing& ring, int harmonic, HeldCircle held);
 
@@ -36,7 +36,7 @@ enum class HeldCircle { none, inner, outer };
 ///
 ///     1/2 [E' ln(b/a) (u + w')^2 + E' h e psi'^2 + 5/6 G ln(b/a) (u' - w + R psi)^2],   e = (a + b)/2 - R
 ///
-/// (Timoshenko, Strength of Materials II, ch. 12). Exact for a constant rectangular section; good while the rim is thin
+/// [Timoshenko1956, ch. 12]. Exact for a constant rectangular section; good while the rim is thin
 /// against the length of the wave.
 [[nodiscard]] HarmonicCompliance curved_beam(const PlainRing& ring, int harmonic);
 

@@ -13,8 +13,8 @@ namespace annulus::fem {
 ///
 /// Tooth 0's own frame (see geometry/profile.h): x along its centre line, y across. A unit force normal to the leading
 /// flank crosses the centre line at x_c, where it splits into a transverse part F_y, an axial part F_x and no moment.
-/// Between x_c and the root at x_0 the energy is (Weber and Banaschek 1953; Yang and Lin 1987, eqs. for bending, shear
-/// and axial compression)
+/// Between x_c and the root at x_0 the energy is, for bending, shear and axial compression
+/// [WeberBanaschek1953; YangLin1987],
 ///
 ///     delta = int [ F_y^2 (x_c - x)^2 / (E' I) + 1.2 F_y^2 / (G A) + F_x^2 / (E' A) ] |dx|,  A = 2y, I = (2y)^3 / 12
 ///

@@ -63,7 +63,7 @@ Eigen::MatrixXd AlteredRing::compliance(const std::vector<const CondensedSector*
     result.block(at, at, load.cols(), load.cols()) = sector.compliance;
     at += load.cols();
   }
-  // C' = (1 + C dS)^-1 C (Woodbury), applied to the loads.
+  // C' = (1 + C dS)^-1 C [Woodbury1950], applied to the loads.
   const Eigen::MatrixXd moved = lapack::product(composed, loads);
   const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(interfaces, interfaces) + lapack::product(composed, change);
   const Eigen::MatrixXd answer = system.partialPivLu().solve(moved);

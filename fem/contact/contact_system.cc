@@ -26,7 +26,7 @@ ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& plan
 
 std::shared_ptr<const ToothPairs> ContactSystem::prepare(double phase, double load, double window,
                                                          const PairSlices& added) const {
-  // Softer than most meshes (steel: 4 N/(mm um), a third of what ISO 6336-1 gives teeth); where one gives way more
+  // Softer than most meshes (steel: 4 N/(mm um), a third of what [ISO6336-1] gives teeth); where one gives way more
   // still, pairs are added.
   const double soft_mesh = 0.02 * materials_.youngs_modulus();  // N/m per m of face width
   auto result = std::make_shared<ToothPairs>();

@@ -23,7 +23,7 @@ std::array<std::pair<double, double>, count> semi_ellipse_points() {
 }
 
 /// Surface displacement of an elastic half-plane (plane strain) under normal loads, into the material, m per N/m of
-/// line load: u(x) = -2 (1 - nu^2) / (pi E) * integral of p(s) ln|x - s| ds (Johnson, Contact Mechanics, 2.3).
+/// line load: u(x) = -2 (1 - nu^2) / (pi E) * integral of p(s) ln|x - s| ds [Johnson1985, sec. 2.3].
 /// Determined up to one constant: only differences of loads with the same resultant mean something.
 class HalfPlane {
  public:

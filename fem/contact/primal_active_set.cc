@@ -13,8 +13,8 @@
 namespace annulus::fem {
 namespace {
 
-/// Forces f >= 0 (of any sign where held both ways) with E^T f = t, few of them: non-negative least squares (Lawson and
-/// Hanson 1974), forces held both ways taken apart into push and pull. None where the load is out of reach.
+/// Forces f >= 0 (of any sign where held both ways) with E^T f = t, few of them: non-negative least squares
+/// [LawsonHanson1974], forces held both ways taken apart into push and pull. None where the load is out of reach.
 std::optional<Eigen::VectorXd> carrying_forces(const ComplementarityProblem& p) {
   const Eigen::Index n = p.gap.size();
   std::vector<std::pair<Eigen::Index, double>> columns;  // force and sign

@@ -30,8 +30,8 @@ class ContactTolerances {
 /// Numbers of those that are active, rising.
 [[nodiscard]] std::vector<int> indices_of(const std::vector<bool>& active);
 
-/// The active set of a solution by the primal method for convex quadratic programmes (Nocedal and Wright 2006,
-/// algorithm 16.3): from forces in equilibrium to ever smaller complementary energy. One contact at a time, so slow,
+/// The active set of a solution by the primal method for convex quadratic programmes [NocedalWright2006,
+/// algorithm 16.3]: from forces in equilibrium to ever smaller complementary energy. One contact at a time, so slow,
 /// but it always ends. Throws SolverError when no forces carry the load.
 [[nodiscard]] std::vector<bool> primal_active_set(const ComplementarityProblem& problem);
 

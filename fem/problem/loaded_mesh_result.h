@@ -71,7 +71,7 @@ struct LoadedPosition {
   /// which both forces change.
   double partner_compliance = 0;
   std::vector<double> line_load;        ///< N/m, of all pairs together, per slice of the face width from low to high z
-  double face_load_factor = 1;          ///< K_H_beta (ISO 6336-1): largest over mean line load
+  double face_load_factor = 1;          ///< K_H_beta [ISO6336-1]: largest over mean line load
   std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only
   std::optional<RecoveredStress> planet_stress{}, wheel_stress{};  ///< none of resolved models
   /// Under the middle load: strains of each gauge turned by 0, 1, ... teeth in the frame of the solve.

@@ -21,7 +21,7 @@ std::vector<double> frequencies(const PlanetaryModes& found, ModeKind kind) {
   return list;
 }
 
-// Lin and Parker, J. Vib. Acoust. 121 (1999), table of the four-planet example. 0.05 %: the published figures (four to
+// [LinParker1999], table of the four-planet example. 0.05 %: the published figures (four to
 // six digits) rest on rounded inputs; the lowest pair deviates by 0.043 %.
 BOOST_AUTO_TEST_CASE(lin_and_parker_four_planets) {
   annulus::test::Verification record(
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(shapes_are_mass_normalised_and_solve_the_eigenproblem) {
   BOOST_TEST(found.modes[1].frequency > 1.0);  // one rigid motion only
 }
 
-// Kahraman, Mech. Mach. Theory 29 (1994): purely torsional, ring fixed, planets riding on the carrier. In coordinates
+// [Kahraman1994]: purely torsional, ring fixed, planets riding on the carrier. In coordinates
 // u the planets' own modes have w^2 = (k1 + k2)/m_p, N - 1 times.
 BOOST_AUTO_TEST_CASE(torsional_closed_form) {
   annulus::test::Verification record(
@@ -171,8 +171,7 @@ BOOST_AUTO_TEST_CASE(unequal_spacing_mixes_the_kinds) {
   record.near("lowest frequency", "Hz", found.modes.front().frequency, 0, 0, "turning stays free");
 }
 
-// Lin and Parker, "Structured vibration characteristics of planetary gears with unequally spaced planets", J. Sound
-// Vib. 233 (2000): planet modes take no notice of where the planets stand; with planets in opposite pairs rotational
+// [LinParker2000]: planet modes take no notice of where the planets stand; with planets in opposite pairs rotational
 // modes do not either, and modes that only translate remain, no longer in pairs.
 BOOST_AUTO_TEST_CASE(what_unequal_spacing_leaves_alone) {
   annulus::test::Verification record(

@@ -59,7 +59,7 @@ inline PlanetaryStage ring_paper() {
   return s;
 }
 
-/// Lin and Parker, J. Vib. Acoust. 121 (1999): inertias are given as I/r^2, so every radius is 1 m.
+/// The stage of [LinParker1999]: inertias are given as I/r^2, so every radius is 1 m.
 inline PlanetaryStage lin_parker(int planets) {
   PlanetaryStage s;
   s.sun = {0.4, 0.39, 1, 1e8, 0, {}};

@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(base_tangent_lengths_of_a_published_pair) {
   record.near("43 teeth, over 5 teeth", "mm", Gear(p).base_tangent_length(5) / units::mm, 24.3530, printed, digits);
 }
 
-// Worked example of the span measurement of helical gears in KHK's gear technical reference: module 3 mm, 20 deg, 24
+// Worked example of the span measurement of helical gears [KHK]: module 3 mm, 20 deg, 24
 // teeth, helix angle 25 deg, x = 0.4, five teeth: 42.0085 mm.
 BOOST_AUTO_TEST_CASE(base_tangent_length_of_a_published_helical_gear) {
   annulus::test::Verification record("Base tangent length of a published helical gear",

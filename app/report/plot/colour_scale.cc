@@ -8,7 +8,7 @@
 namespace annulus::app {
 
 std::vector<std::string> scale_colours(Ways ways) {
-  // ColorBrewer's YlGnBu without its palest step (Harrower and Brewer): what carries little stays pale, also without
+  // ColorBrewer's YlGnBu without its palest step [HarrowerBrewer2003]: what carries little stays pale, also without
   // colour vision.
   static const std::vector<Eigen::Vector3d> one_way = {{237, 248, 177}, {199, 233, 180}, {127, 205, 187},
                                                        {65, 182, 196},  {29, 145, 192},  {34, 94, 168},

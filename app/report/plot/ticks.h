@@ -6,7 +6,8 @@
 /// What all plots share: colours, round numbers and ranges.
 namespace annulus::app {
 
-/// Okabe and Ito's palette, continued with Tol's muted one, safe for colour-blind readers; the index wraps around.
+/// The palette of [OkabeIto2008], continued with the muted one of [Tol2021], safe for colour-blind readers; the index
+/// wraps around.
 [[nodiscard]] const char* palette(std::size_t index);
 
 /// The largest 1, 2 or 5 times a power of ten that is not above a value.

@@ -106,7 +106,7 @@ struct MeshInput {
   std::optional<double> half_backlash;  ///< instead of that of [dynamics]
   std::optional<double> damping_ratio;  ///< likewise
   std::optional<std::string> file;
-  std::optional<double> single_stiffness;  ///< c' of ISO 6336-1, Pa
+  std::optional<double> single_stiffness;  ///< c' of [ISO6336-1], Pa
 };
 
 struct DynamicsInput {

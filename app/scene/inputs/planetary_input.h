@@ -63,7 +63,7 @@ enum class ToleranceLaw { normal, uniform };
 
 /// Tolerances of the gears and the carrier, and the assemblies drawn within them.
 struct ToleranceInput {
-  std::optional<int> accuracy_class;                             ///< ISO 1328-1, of gears without their own
+  std::optional<int> accuracy_class;                             ///< [ISO1328-1], of gears without their own
   std::optional<int> sun_class, planet_class, ring_class;        ///< instead of it
   std::optional<double> sun_runout, planet_runout, ring_runout;  ///< m, instead of that of the class
   std::optional<double> planet_pin_position;                     ///< m, diameter of the zone

@@ -46,7 +46,7 @@ double pair_centre_distance(const Scene& scene) {
   const auto gear = pair_gear(scene, scene.pinion, "pinion", 1);
   const int teeth = scene.pinion.teeth + scene.wheel.teeth;
   const double shift = scene.pinion.profile_shift + scene.wheel.profile_shift, at = gear.transverse_pressure_angle();
-  // inv(working angle), ISO 21771.
+  // inv(working angle) [ISO21771].
   const double inv = geometry::involute(at) + 2 * std::tan(stage.pressure_angle) * shift / teeth;
   if (inv < 0)
     throw GeometryError("pinion, wheel: the profile shifts leave no working pressure angle; make them larger");

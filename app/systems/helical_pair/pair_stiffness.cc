@@ -18,7 +18,7 @@ namespace annulus::app {
 
 namespace {
 
-constexpr double steel_single_stiffness = 14e9;  // c' of ISO 6336-1, Pa
+constexpr double steel_single_stiffness = 14e9;  // c' of [ISO6336-1], Pa
 
 GearMesh external_pair(const Scene& scene, const PairGeometry& geometry) {
   return {.mesh = pinion_wheel,

@@ -20,7 +20,7 @@ namespace annulus::app {
 /// Why the plane and closed-form models cannot represent it; empty when they can.
 [[nodiscard]] std::string pair_solid_reason(const Scene& scene, const PairGeometry& geometry);
 
-/// N/m along the normal: ISO 6336-1, method B.
+/// N/m along the normal [ISO6336-1, method B].
 [[nodiscard]] double iso_pair_stiffness(const Scene& scene, const PairGeometry& geometry);
 
 /// Why there is no closed form of this pair; empty when there is.

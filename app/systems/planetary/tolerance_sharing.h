@@ -26,7 +26,7 @@ struct SharingQuantile {
 [[nodiscard]] const std::vector<SharingQuantile>& sharing_quantiles();
 
 /// The zones of one ring's stage: radii are half the runouts and half the diameter of the pin position zone. Throws
-/// GeometryError for gears that ISO 1328-1 does not cover.
+/// GeometryError for gears that [ISO1328-1] does not cover.
 [[nodiscard]] dynamics::StageTolerances stage_tolerances(const Scene& scene, const GearGeometry& geometry,
                                                          std::size_t ring);
 

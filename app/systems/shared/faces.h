@@ -34,7 +34,7 @@ struct EvenStations {
 [[nodiscard]] EvenStations even_stations(const geometry::GearPair& pair, const MeshInput& input, double misalignment,
                                          int stretches = face_stretches);
 
-/// N/m along the normal, where any stiffness of the usual size will do: 20 N/(mm um), as ISO 6336-1 takes it for
+/// N/m along the normal, where any stiffness of the usual size will do: 20 N/(mm um), as [ISO6336-1] takes it for
 /// c_gamma of steel gears.
 [[nodiscard]] double nominal_mesh_stiffness(const geometry::GearPair& pair);
 

@@ -37,7 +37,7 @@ struct PinHeld {
 ///
 ///     k = 2 / (L^3 / (12 E I) + L / (kappa G A)),  I = pi D^4 / 64,  A = pi D^2 / 4,
 ///
-/// with the shear coefficient of a circle kappa = 6 (1 + nu) / (7 + 6 nu) (Cowper 1966). Half the span bends as a
+/// with the shear coefficient of a circle kappa = 6 (1 + nu) / (7 + 6 nu) [Cowper1966]. Half the span bends as a
 /// cantilever with the shear force at its tip, (L/2)^3 / (3 E I); two halves make L^3 / (12 E I). Infinite for a span
 /// of zero.
 [[nodiscard]] double pin_span_stiffness(const Material& material, double diameter, double span);

@@ -10,7 +10,7 @@ namespace annulus::fem {
 /// Spline teeth around the outside in a rigid mate: each of their flanks is a unilateral support along its normal.
 struct SplineHeld {
   int teeth = 0;
-  double flank_angle = 0;                   ///< rad, between the flank and the radius at the outside diameter
+  double flank_angle = 0;                   ///< rad, from the radius at the outside diameter [ISO4156]
   double clearance = 0;                     ///< m, normal to each flank
   std::optional<double> flank_stiffness{};  ///< N/m per flank; absent: derived
   double first_tooth_angle = 0;             ///< rad, from the centre of tooth 0 of the ring
@@ -21,9 +21,9 @@ struct SplineHeld {
   [[nodiscard]] SupportSites supports(const SupportedRing& ring) const;
 };
 
-/// Stiffness of one flank of a spline tooth, N/m: that of a gear tooth pair, 14 N/(mm um) (ISO 6336-1, magnitude of the
-/// theoretical single stiffness) times the width for steel, in proportion to Young's modulus otherwise. An estimate,
-/// whatever the module.
+/// Stiffness of one flank of a spline tooth, N/m: that of a gear tooth pair, 14 N/(mm um) ([ISO6336-1], magnitude of
+/// the theoretical single stiffness) times the width for steel, in proportion to Young's modulus otherwise. An
+/// estimate, whatever the module.
 [[nodiscard]] double derived_spline_stiffness(const Material& material, double width);
 
 }  // namespace annulus::fem
