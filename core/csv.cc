@@ -139,6 +139,11 @@ Csv Csv::parse(const std::string& text, const std::filesystem::path& name) {
   return parsed(stream, name);
 }
 
+void Csv::add_column(const std::string& name, const Eigen::VectorXd& values) {
+  columns.push_back(name);
+  for (std::size_t row = 0; row < rows.size(); ++row) rows[row].push_back(values[static_cast<Eigen::Index>(row)]);
+}
+
 void Csv::round(const std::vector<std::string>& exact) {
   std::vector<bool> stays;
   for (const auto& name : columns) stays.push_back(std::find(exact.begin(), exact.end(), name) != exact.end());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,6 +26,8 @@ struct Csv {
   /// `name`: of the file in messages.
   [[nodiscard]] static Csv parse(const std::string& text, const std::filesystem::path& name);
 
+  /// A column after the others, a value for every row.
+  void add_column(const std::string& name, const Eigen::VectorXd& values);
   /// Rounds to six significant digits, far below any error of a result, and the first column, the abscissa, to nine:
   /// large tables shrink to less than half. Columns in `exact` stay as they are.
   void round(const std::vector<std::string>& exact = {});

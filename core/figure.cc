@@ -11,6 +11,12 @@ const FigureSpec* find_figure(const std::vector<FigureSpec>& specs, const std::s
   return found == specs.end() ? nullptr : &*found;
 }
 
+std::vector<FigureSpec> joined_figures(const std::vector<std::vector<FigureSpec>>& lists) {
+  std::vector<FigureSpec> all;
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
 std::vector<std::string> figure_keys(const std::vector<FigureSpec>& specs) {
   std::vector<std::string> keys;
   keys.reserve(specs.size());

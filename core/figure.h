@@ -66,6 +66,9 @@ struct FigureSpec {
 /// The declaration with this key; nullptr when there is none.
 [[nodiscard]] const FigureSpec* find_figure(const std::vector<FigureSpec>& specs, const std::string& key);
 
+/// The declarations of all lists, in their order.
+[[nodiscard]] std::vector<FigureSpec> joined_figures(const std::vector<std::vector<FigureSpec>>& lists);
+
 [[nodiscard]] std::vector<std::string> figure_keys(const std::vector<FigureSpec>& specs);
 
 /// Results by their keys, in the order in which they were set.

@@ -169,15 +169,9 @@ const std::vector<FigureSpec>& all_pair_figures() {
                                       .guarantee = Guarantee::always,
                                       .quantity = "mean_stiffness",
                                       .compared = true}};
-    const auto mesh = mesh_figure_specs(pinion_wheel, "mesh", "pinion_wheel_stiffness", {"pinion", "wheel"});
-    specs.insert(specs.end(), mesh.begin(), mesh.end());
-    const auto& model = dynamics::pair_figures();
-    specs.insert(specs.end(), model.begin(), model.end());
-    const auto losses = friction_figure_specs({{pinion_wheel, "mesh"}});
-    specs.insert(specs.end(), losses.begin(), losses.end());
-    const auto& courses = dynamics::transient_figures();
-    specs.insert(specs.end(), courses.begin(), courses.end());
-    return specs;
+    return joined_figures(
+        {specs, mesh_figure_specs(pinion_wheel, "mesh", "pinion_wheel_stiffness", {"pinion", "wheel"}),
+         dynamics::pair_figures(), friction_figure_specs({{pinion_wheel, "mesh"}}), dynamics::transient_figures()});
   }();
   return list;
 }

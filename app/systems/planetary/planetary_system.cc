@@ -222,22 +222,11 @@ class PlanetarySystem final : public GearSystem {
 };
 
 const std::vector<FigureSpec>& all_planetary_figures() {
-  static const auto list = [] {
-    auto specs = mesh_figure_specs(ring_planet, "ring mesh", "ring_stiffness", {"planet", "ring"});
-    const auto sun = mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness", {"planet", "sun"});
-    specs.insert(specs.end(), sun.begin(), sun.end());
-    const auto losses = friction_figure_specs({{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}});
-    specs.insert(specs.end(), losses.begin(), losses.end());
-    const auto& model = dynamics::planetary_figures();
-    specs.insert(specs.end(), model.begin(), model.end());
-    const auto& assemblies = tolerance_figures();
-    specs.insert(specs.end(), assemblies.begin(), assemblies.end());
-    const auto& equilibrium = static_figures();
-    specs.insert(specs.end(), equilibrium.begin(), equilibrium.end());
-    const auto& courses = dynamics::transient_figures();
-    specs.insert(specs.end(), courses.begin(), courses.end());
-    return specs;
-  }();
+  static const auto list = joined_figures(
+      {mesh_figure_specs(ring_planet, "ring mesh", "ring_stiffness", {"planet", "ring"}),
+       mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness", {"planet", "sun"}),
+       friction_figure_specs({{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}}), dynamics::planetary_figures(),
+       tolerance_figures(), static_figures(), dynamics::transient_figures()});
   return list;
 }
 

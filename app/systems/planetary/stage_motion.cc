@@ -15,11 +15,6 @@ namespace annulus::app {
 
 namespace {
 
-void add_column(Csv& csv, const std::string& name, const Eigen::VectorXd& cycles) {
-  csv.columns.push_back(name);
-  for (std::size_t c = 0; c < csv.rows.size(); ++c) csv.rows[c].push_back(cycles[static_cast<Eigen::Index>(c)]);
-}
-
 /// rad, of a bearing with play under the forces on its pin.
 Eigen::VectorXd load_zones(const dynamics::PlanetBearing& bearing, const Eigen::VectorXd& force) {
   const RadialBearing law(bearing.radial, bearing.play, bearing.pin);
@@ -37,13 +32,13 @@ void add_bearings(StageMotion& motion, const dynamics::StageMotion& found, const
     const auto in_cycles = [&](const Eigen::MatrixXd& rows) {
       return dynamics::over_cycles(rows.row(n).transpose(), cycles);
     };
-    add_column(csv, name + "_radial_mean_N", in_cycles(found.pins.radial).mean);
-    add_column(csv, name + "_tangential_mean_N", in_cycles(found.pins.tangential).mean);
-    add_column(csv, name + "_resultant_min_N", in_cycles(resultant).smallest);
-    add_column(csv, name + "_resultant_max_N", in_cycles(resultant).largest);
+    csv.add_column(name + "_radial_mean_N", in_cycles(found.pins.radial).mean);
+    csv.add_column(name + "_tangential_mean_N", in_cycles(found.pins.tangential).mean);
+    csv.add_column(name + "_resultant_min_N", in_cycles(resultant).smallest);
+    csv.add_column(name + "_resultant_max_N", in_cycles(resultant).largest);
     if (const auto bearing = stage.planet_bearing(static_cast<int>(n)); bearing.play > 0) {
       const auto zone = dynamics::over_cycles(load_zones(bearing, resultant.row(n).transpose()), cycles).smallest;
-      add_column(csv, name + "_load_zone_min_deg", zone / units::deg);
+      csv.add_column(name + "_load_zone_min_deg", zone / units::deg);
       motion.load_zone_min =
           std::isnan(motion.load_zone_min) ? zone.minCoeff() : std::min(motion.load_zone_min, zone.minCoeff());
     }
@@ -52,7 +47,7 @@ void add_bearings(StageMotion& motion, const dynamics::StageMotion& found, const
   }
   const auto support = [&](const char* name, const dynamics::SupportReaction& reaction) {
     const Eigen::VectorXd magnitude = reaction.magnitude();
-    add_column(csv, std::string(name) + "_support_max_N", dynamics::over_cycles(magnitude, cycles).largest);
+    csv.add_column(std::string(name) + "_support_max_N", dynamics::over_cycles(magnitude, cycles).largest);
     return magnitude.maxCoeff();
   };
   motion.sun_support_max = support("sun", found.sun_support);
@@ -63,7 +58,7 @@ void add_bearings(StageMotion& motion, const dynamics::StageMotion& found, const
   const auto& reaction = *stage.held == StageMember::sun    ? found.sun_support
                          : *stage.held == StageMember::ring ? found.ring_support
                                                             : found.carrier_support;
-  add_column(csv, "held_torque_mean_N_m", dynamics::over_cycles(reaction.torque, cycles).mean);
+  csv.add_column("held_torque_mean_N_m", dynamics::over_cycles(reaction.torque, cycles).mean);
   motion.held_torque_mean = reaction.torque.mean();
 }
 

@@ -377,7 +377,7 @@ const std::vector<FigureSpec>& static_figures() {
       sharing.definition =
           "Mesh force of a planet, averaged over a mesh cycle, over the mean of all planets: the largest over the "
           "planets and over all positions of the carrier, without inertia (annulus statics).";
-      sharing.term = "K_γ";
+      sharing.term = "load_sharing";
       sharing.better = Better::smaller;
       sharing.quantity = "load_sharing";
       specs.push_back(sharing);

@@ -46,6 +46,10 @@ double runout(const std::string& name, const geometry::Gear& gear, const std::op
                      });
 }
 
+std::string figure_key(const SharingQuantile& quantile) {
+  return fmt::format("load_sharing_of_assemblies_{}", quantile.key);
+}
+
 Json quantiles_json(const SharingQuantiles& quantiles) {
   Json json;
   for (const auto& q : sharing_quantiles()) json[q.key] = interval_json(quantiles.*q.interval);
@@ -170,7 +174,7 @@ const std::vector<FigureSpec>& tolerance_figures() {
   static const auto list = [] {
     std::vector<FigureSpec> specs;
     for (const auto& q : sharing_quantiles())
-      specs.push_back({.key = fmt::format("load_sharing_of_assemblies_{}", q.key),
+      specs.push_back({.key = figure_key(q),
                        .title = fmt::format("Load sharing of assemblies within the tolerances, {}", q.symbol),
                        .axis = "N |F| / Σ|F|",
                        .definition = "quantile over assemblies of the quasi-static load-sharing factor, averaged over "
@@ -188,8 +192,8 @@ const std::vector<FigureSpec>& tolerance_figures() {
 
 FigureSet figures(const ToleranceSharing& sharing) {
   FigureSet set;
-  for (std::size_t i = 0; i < sharing_quantiles().size(); ++i)
-    set.set(tolerance_figures()[i].key, sharing.figure(sharing_quantiles()[i].interval, sharing.sharing.nominal()));
+  for (const auto& q : sharing_quantiles())
+    set.set(figure_key(q), sharing.figure(q.interval, sharing.sharing.nominal()));
   return set;
 }
 

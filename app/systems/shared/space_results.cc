@@ -16,11 +16,6 @@ namespace annulus::app {
 
 namespace {
 
-void add_column(Csv& csv, const std::string& name, const Eigen::VectorXd& cycles) {
-  csv.columns.push_back(name);
-  for (std::size_t c = 0; c < csv.rows.size(); ++c) csv.rows[c].push_back(cycles[static_cast<Eigen::Index>(c)]);
-}
-
 /// Of those that are known.
 std::pair<double, double> known_range(const Eigen::Ref<const Eigen::VectorXd>& values) {
   std::pair<double, double> range{not_known, not_known};
@@ -99,9 +94,9 @@ SpaceResults space_results(const dynamics::SpaceMotion& found, int cycles) {
     results.bearings.push_back({name, mean_of(radial), radial.maxCoeff(), mean_of(axial), axial.cwiseAbs().maxCoeff(),
                                 moment.maxCoeff(), bearing.law_deviation, bearing.table_end});
     const auto in_cycles = [&](const Eigen::VectorXd& values) { return dynamics::over_cycles(values, cycles); };
-    add_column(csv, name + "_radial_max_N", in_cycles(radial).largest);
-    add_column(csv, name + "_axial_mean_N", in_cycles(axial).mean);
-    add_column(csv, name + "_moment_max_N_m", in_cycles(moment).largest);
+    csv.add_column(name + "_radial_max_N", in_cycles(radial).largest);
+    csv.add_column(name + "_axial_mean_N", in_cycles(axial).mean);
+    csv.add_column(name + "_moment_max_N_m", in_cycles(moment).largest);
   }
   for (const auto& mesh : found.meshes) {
     const Eigen::Index samples = mesh.place.size() / cycles;
@@ -111,8 +106,8 @@ SpaceResults space_results(const dynamics::SpaceMotion& found, int cycles) {
     const auto [low, high] = known_range(mesh.place);
     results.meshes.push_back({mesh.name, mesh.mean_place, low, high, mesh.face_width, mesh.solid_face});
     add_most_tilted_cycle(results.meshes.back(), mesh);
-    add_column(csv, mesh.name + "_place_min_m", smallest);
-    add_column(csv, mesh.name + "_place_max_m", largest);
+    csv.add_column(mesh.name + "_place_min_m", smallest);
+    csv.add_column(mesh.name + "_place_max_m", largest);
   }
   return results;
 }

@@ -115,11 +115,8 @@ const std::vector<FigureSpec>& model_figures() {
 }
 
 const std::vector<FigureSpec>& all_figures() {
-  static const auto specs = [] {
-    auto list = mesh_figure_specs(mesh_name, "mesh", "mesh_stiffness", {"pinion", "wheel"});
-    list.insert(list.end(), model_figures().begin(), model_figures().end());
-    return list;
-  }();
+  static const auto specs =
+      joined_figures({mesh_figure_specs(mesh_name, "mesh", "mesh_stiffness", {"pinion", "wheel"}), model_figures()});
   return specs;
 }
 

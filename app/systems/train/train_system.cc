@@ -172,12 +172,7 @@ class TrainSystem final : public GearSystem {
 };
 
 const std::vector<FigureSpec>& all_train_figures() {
-  static const auto list = [] {
-    auto specs = dynamics::train_figures();
-    const auto& courses = dynamics::transient_figures();
-    specs.insert(specs.end(), courses.begin(), courses.end());
-    return specs;
-  }();
+  static const auto list = joined_figures({dynamics::train_figures(), dynamics::transient_figures()});
   return list;
 }
 

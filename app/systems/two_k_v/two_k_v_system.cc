@@ -141,16 +141,10 @@ class TwoKVSystem final : public GearSystem {
 };
 
 const std::vector<FigureSpec>& all_two_k_v_figures() {
-  static const auto list = [] {
-    auto specs = mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness", {"planet", "sun"});
-    const auto arc = mesh_figure_specs(arc_pins, "arc mesh", "arc_stiffness");
-    specs.insert(specs.end(), arc.begin(), arc.end());
-    const auto& model = dynamics::two_k_v_figures();
-    specs.insert(specs.end(), model.begin(), model.end());
-    const auto& courses = dynamics::transient_figures();
-    specs.insert(specs.end(), courses.begin(), courses.end());
-    return specs;
-  }();
+  static const auto list =
+      joined_figures({mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness", {"planet", "sun"}),
+                      mesh_figure_specs(arc_pins, "arc mesh", "arc_stiffness"), dynamics::two_k_v_figures(),
+                      dynamics::transient_figures()});
   return list;
 }
 
