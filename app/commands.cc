@@ -89,10 +89,10 @@ void check_out(const std::filesystem::path& out) {
 }
 
 /// What can be known to be wrong before anything is computed; the run itself checks its studies first.
-void check_scene(const Scene& scene, const Arguments& arguments, bool with_dynamics = true) {
+void check_scene(const Scene& scene, const Arguments& arguments, RunExtent extent = RunExtent::whole) {
   check_stage(scene);
   check_files(scene);
-  check_limits(scene, limits_of(arguments), arguments.threads, with_dynamics);
+  check_limits(scene, limits_of(arguments), arguments.threads, extent);
 }
 
 /// The scene as the file has it, or as accurate as the budget allows; what that means goes into `sentence`.
@@ -127,7 +127,7 @@ void run_and_print(const Arguments& arguments, const Scene& scene, RunOptions op
     text = *earlier + "reused   everything: nothing has changed since the run above\n";
   } else {
     folder.check();
-    check_scene(scene, arguments, options.with_dynamics);
+    check_scene(scene, arguments, options.with_dynamics ? RunExtent::whole : RunExtent::meshes);
     hold(arguments, options);
     remove_unfinished_files(options.out);
     remove_unfinished_files(options.cache);
@@ -146,12 +146,12 @@ void run_and_print(const Arguments& arguments, const Scene& scene, RunOptions op
   }
 }
 
-void run_and_print(const Arguments& arguments, bool with_dynamics) {
+void run_and_print(const Arguments& arguments, RunExtent extent) {
   std::string budget;
   const Scene scene = wanted_scene(arguments, budget);
   if (!budget.empty()) log::info(budget);
   auto options = run_options(arguments, scene);
-  options.with_dynamics = with_dynamics;
+  options.with_dynamics = extent == RunExtent::whole;
   run_and_print(arguments, scene, std::move(options), budget);
 }
 
@@ -179,13 +179,13 @@ bool explain_results(const std::string& key) {
 
 }  // namespace
 
-void run_command(const Arguments& arguments) { run_and_print(arguments, true); }
-void solve_command(const Arguments& arguments) { run_and_print(arguments, false); }
+void run_command(const Arguments& arguments) { run_and_print(arguments, RunExtent::whole); }
+void solve_command(const Arguments& arguments) { run_and_print(arguments, RunExtent::meshes); }
 
 void dynamics_command(const Arguments& arguments) {
   const Scene scene = read_scene_with(arguments.scene, arguments.settings);
   if (!scene.dynamics) throw InputError(arguments.scene + ": has no [dynamics] table; add one to run the lumped model");
-  run_and_print(arguments, true);
+  run_and_print(arguments, RunExtent::whole);
 }
 
 void plan_command(const Arguments& arguments) {
@@ -237,7 +237,7 @@ void write_beside_runs(const Arguments& arguments, const ResultFolder::Which& wh
   check_out(options.out);
   auto folder = folder_of(options, scene);
   folder.check();
-  check_scene(scene, arguments, false);
+  check_scene(scene, arguments, RunExtent::meshes);
   hold(arguments, options);
   remove_unfinished_files(options.out);
   remove_unfinished_files(options.cache);

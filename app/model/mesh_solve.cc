@@ -103,7 +103,7 @@ MeshResult computed_stiffness(const MeshModel& model, const std::string& folder,
   const auto out = options.out / folder;
   auto [result, reused] = cached_value(options.store.get(), cached_meshes, result_id(model, options),
                                        [&] { return solved_stiffness(model, out, options); });
-  note_reuse(options, model.label(), reused);
+  note_reuse(options, model.label(), source_of(reused));
   if (options.for_study) count_reuse(options, study_meshes, reused ? 1 : 0, reused ? 0 : 1);
   result.model = model;
   if (reused) log::info(fmt::format("{}: unchanged, reused", model.label()));

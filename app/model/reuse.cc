@@ -9,11 +9,11 @@
 
 namespace annulus::app {
 
-void Reuse::note(const std::string& result, bool reused) {
+void Reuse::note(const std::string& result, ResultSource source) {
   const std::lock_guard guard(lock_);
-  const auto [entry, first] = results_.emplace(result, reused);
+  const auto [entry, first] = results_.emplace(result, source);
   // Computed in this run and read back later on: it was computed.
-  if (!first) entry->second = entry->second && reused;
+  if (!first && source == ResultSource::computed) entry->second = source;
 }
 
 void Reuse::count(const std::string& things, long reused, long computed) {
@@ -23,12 +23,11 @@ void Reuse::count(const std::string& things, long reused, long computed) {
   counts_[things].computed += computed;
 }
 
-std::vector<std::string> Reuse::list(bool reused) const {
+std::vector<std::string> Reuse::list(ResultSource source) const {
   const std::lock_guard guard(lock_);
   std::vector<std::string> names;
-  for (const auto& [name, was_reused] : results_) {
-    if (was_reused == reused) names.push_back(name);
-  }
+  for (const auto& [name, own] : results_)
+    if (own == source) names.push_back(name);
   return names;
 }
 
@@ -45,10 +44,11 @@ std::map<std::string, Reuse::Count> Reuse::counts() const {
 
 std::string Reuse::text() const {
   std::string text;
-  for (const bool of_reused : {true, false}) {
+  for (const auto source : {ResultSource::reused, ResultSource::computed}) {
+    const bool of_reused = source == ResultSource::reused;
     std::string line;
     const auto add = [&](const std::string& part) { line += (line.empty() ? "" : ", ") + part; };
-    for (const auto& name : list(of_reused)) add(name);
+    for (const auto& name : list(source)) add(name);
     for (const auto& [things, count] : counts()) {
       const long n = of_reused ? count.reused : count.computed;
       if (n > 0) add(fmt::format("{} {}", n, things));
@@ -66,8 +66,8 @@ Json Reuse::json() const {
   return json;
 }
 
-void note_reuse(const RunOptions& options, const std::string& result, bool reused) {
-  if (options.reuse && !options.for_study) options.reuse->note(result, reused);
+void note_reuse(const RunOptions& options, const std::string& result, ResultSource source) {
+  if (options.reuse && !options.for_study) options.reuse->note(result, source);
 }
 
 void count_reuse(const RunOptions& options, const std::string& things, long reused, long computed) {

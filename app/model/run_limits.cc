@@ -94,13 +94,13 @@ RunLimits RunLimits::of_this_machine() {
   return {std::min({physical, group_memory_MB(), free_address_space_MB()}), week};
 }
 
-void check_limits(const Scene& scene, const RunLimits& limits, int threads, bool with_dynamics) {
+void check_limits(const Scene& scene, const RunLimits& limits, int threads, RunExtent extent) {
   const auto cost = make_system(scene)->cost(threads).at_worst();
   double seconds = 0, longest_s = 0, largest_MB = 0;
   const CostStep *longest = nullptr, *largest = nullptr;
   for (const auto& step : cost.steps) {
     const bool dynamics = step.kind == CostKind::response || step.kind == CostKind::studies;
-    if (dynamics && !with_dynamics) continue;
+    if (dynamics && extent == RunExtent::meshes) continue;
     const double time = step.predicted.seconds, memory = memory_of(scene, step);
     if (std::isfinite(time)) seconds += time;
     if (std::isfinite(time) && time > longest_s) longest = &step, longest_s = time;

@@ -23,10 +23,12 @@ struct RunLimits {
   [[nodiscard]] static RunLimits of_this_machine();
 };
 
+/// What is computed: the meshes alone, or the responses and studies of the scene as well.
+enum class RunExtent { meshes, whole };
 /// Throws SolverError, with the figures, the step behind them and the keys that would change it, when the scene is
 /// predicted to take more; with quadratic elements wherever they may have to follow linear ones. Steps whose cost is
 /// not known count nothing.
-void check_limits(const Scene& scene, const RunLimits& limits, int threads, bool with_dynamics = true);
+void check_limits(const Scene& scene, const RunLimits& limits, int threads, RunExtent extent = RunExtent::whole);
 
 /// The best plan for a given time.
 struct BudgetChoice {

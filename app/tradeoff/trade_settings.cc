@@ -50,9 +50,9 @@ std::string MeshSetting::folder() const {
   return fmt::format("{}_d{}_l{}_p{}_n{}", fidelity_name(fidelity), degree, level, phases, loads);
 }
 
-MeshModel MeshSetting::applied(const MeshModel& planned, bool needs_solid) const {
+MeshModel MeshSetting::applied(const MeshModel& planned, AlongFace face) const {
   MeshModel model = planned;
-  const auto used = fidelity == fem::Fidelity::solid && !needs_solid ? fem::Fidelity::plane : fidelity;
+  const auto used = fidelity == fem::Fidelity::solid && face == AlongFace::uniform ? fem::Fidelity::plane : fidelity;
   const double nominal = planned.problem->loads[planned.nominal_load()];
   model.fidelity = fidelity_name(used);
   model.settings.fidelity = used;
@@ -64,13 +64,13 @@ MeshModel MeshSetting::applied(const MeshModel& planned, bool needs_solid) const
   return model;
 }
 
-std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_solid) {
+std::vector<MeshSetting> mesh_settings(const MeshModel& planned, AlongFace face) {
   using fem::Fidelity;
   std::vector<MeshSetting> list;
   const auto add = [&](Fidelity fidelity, int degree, const std::vector<int>& levels) {
     for (const int level : levels) list.push_back({.fidelity = fidelity, .degree = degree, .level = level});
   };
-  if (needs_solid) {
+  if (face == AlongFace::varying) {
     add(Fidelity::solid, 1, {1});
     add(Fidelity::solid, 2, {1});
     add(Fidelity::solid, 1, {2});

@@ -12,6 +12,9 @@ namespace annulus::app {
 /// What a setting belongs to.
 enum class TradePart { mesh, dynamics };
 
+/// Whether something changes along the face width of a mesh, which only solid models contain.
+enum class AlongFace { uniform, varying };
+
 /// How stiffness tables are computed.
 struct MeshSetting {
   fem::Fidelity fidelity = fem::Fidelity::plane;
@@ -22,13 +25,13 @@ struct MeshSetting {
 
   [[nodiscard]] std::string text() const;    ///< "degree 2, level 1, 32 phases, 5 loads"
   [[nodiscard]] std::string folder() const;  ///< "plane_d2_l1_p32_n5"
-  /// A solid setting is solved in the plane, alike otherwise, where nothing changes along the face width.
-  [[nodiscard]] MeshModel applied(const MeshModel& planned, bool needs_solid) const;
+  /// A solid setting is solved in the plane, with everything else equal, on a uniform face.
+  [[nodiscard]] MeshModel applied(const MeshModel& planned, AlongFace face) const;
 };
 
 /// All that can represent a mesh: models, degrees and levels with the usual table, tables of other resolution, and last
 /// the finest of all.
-[[nodiscard]] std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_solid);
+[[nodiscard]] std::vector<MeshSetting> mesh_settings(const MeshModel& planned, AlongFace face);
 
 /// Samples per mesh cycle of the finest harmonic balance.
 inline constexpr int finest_samples = 128;

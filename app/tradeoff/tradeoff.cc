@@ -146,13 +146,13 @@ class Measurement {
     return inside;
   }
 
-  /// Whether something changes along the face width of each mesh: a scene without a model of its own takes a solid one.
-  [[nodiscard]] std::vector<bool> need_solid() const {
+  /// Of each mesh: where something changes, a scene without a model of its own takes a solid one.
+  [[nodiscard]] std::vector<AlongFace> along_faces() const {
     Scene free = scene_;
     free.fidelity = Fidelity::automatic;
-    std::vector<bool> list;
+    std::vector<AlongFace> list;
     for (const auto& mesh : meshes_of(*make_system(free), variant_))
-      list.push_back(fem::is_solid(mesh.settings.fidelity));
+      list.push_back(fem::is_solid(mesh.settings.fidelity) ? AlongFace::varying : AlongFace::uniform);
     return list;
   }
 
@@ -218,32 +218,32 @@ class Measurement {
     return seconds;
   }
 
-  [[nodiscard]] std::vector<MeshModel> applied(const MeshSetting& setting, const std::vector<bool>& need_solid) const {
+  [[nodiscard]] std::vector<MeshModel> applied(const MeshSetting& setting, const std::vector<AlongFace>& faces) const {
     std::vector<MeshModel> models;
-    for (std::size_t i = 0; i < meshes_.size(); ++i) models.push_back(setting.applied(meshes_[i], need_solid[i]));
+    for (std::size_t i = 0; i < meshes_.size(); ++i) models.push_back(setting.applied(meshes_[i], faces[i]));
     return models;
   }
 
   [[nodiscard]] std::vector<TradeStep> mesh_steps() {
-    const auto solid = need_solid();
+    const auto faces = along_faces();
     std::vector<TradeStep> steps;
-    const bool any_solid = std::find(solid.begin(), solid.end(), true) != solid.end();
-    for (const auto& setting : lists_.mesh(meshes_.back(), any_solid))
+    const bool varies = std::find(faces.begin(), faces.end(), AlongFace::varying) != faces.end();
+    for (const auto& setting : lists_.mesh(meshes_.back(), varies ? AlongFace::varying : AlongFace::uniform))
       steps.push_back({fmt::format("{}, {}", fidelity_name(setting.fidelity), setting.text()),
-                       predicted(applied(setting, solid)),
-                       [this, setting, solid] { return mesh_point(setting, solid); }});
+                       predicted(applied(setting, faces)),
+                       [this, setting, faces] { return mesh_point(setting, faces); }});
     for (const double accuracy : lists_.accuracies)
       steps.push_back({fmt::format("as planned for {:g} %", 100 * accuracy), predicted(meshes_),
                        [this, accuracy] { return planned_point(accuracy); }});
     return steps;
   }
 
-  TradePoint mesh_point(const MeshSetting& setting, const std::vector<bool>& need_solid) {
+  TradePoint mesh_point(const MeshSetting& setting, const std::vector<AlongFace>& faces) {
     TradePoint point{.fidelity = fidelity_name(setting.fidelity),
                      .settings = setting.text(),
                      .finest = setting.finest,
                      .mesh = setting};
-    measure(applied(setting, need_solid), setting.folder(), point);
+    measure(applied(setting, faces), setting.folder(), point);
     return point;
   }
 

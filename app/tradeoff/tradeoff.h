@@ -107,7 +107,7 @@ struct TradeOff {
 /// What is tried.
 struct TradeLists {
   std::vector<double> accuracies = {0.1, 0.03, 0.01, 0.003};  ///< for which the planner is asked
-  std::function<std::vector<MeshSetting>(const MeshModel& planned, bool needs_solid)> mesh = mesh_settings;
+  std::function<std::vector<MeshSetting>(const MeshModel& planned, AlongFace face)> mesh = mesh_settings;
   bool motions = true;  ///< the ways to find the motion, too
 };
 

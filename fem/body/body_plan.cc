@@ -21,12 +21,13 @@ double axial_force(const geometry::ToothProfile& profile, geometry::Boundary fla
 
 }  // namespace
 
-BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfile& profile, bool wheel,
-                   geometry::Boundary flank, int degree, bool solid, const SolvedFace& face)
+BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfile& profile, Role role,
+                   geometry::Boundary flank, int degree, Dimension dimension, const SolvedFace& face)
     : profile_(profile),
       face_(face),
-      overhang_(wheel ? problem.wheel_overhang : problem.planet_overhang),
-      solid_(solid) {
+      overhang_(role == Role::wheel ? problem.wheel_overhang : problem.planet_overhang),
+      solid_(dimension == Dimension::solid) {
+  const bool wheel = role == Role::wheel;
   const RingStructure structure = wheel ? problem.structure : RingStructure{};
   const double outside = problem.wheel_support_radius;
   rim_.support_radius = wheel ? outside : problem.planet_bore_radius;
@@ -35,7 +36,7 @@ BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfil
   model_.symmetric_end = face.half;
   const bool helical = profile.gear().helix_angle() != 0;
   const auto words = structure.words();
-  if (!solid && needs_solid(structure))
+  if (!solid_ && needs_solid(structure))
     throw InputError(
         fmt::format("a plane model cannot represent a ring {}: {}", words.description, words.solid_reason));
   ring_ = structure.body(outside);
@@ -67,7 +68,7 @@ BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfil
       model_.held = HeldBoundary::flange_face;
       break;
     case HeldSurface::none:
-      if (solid && helical) {
+      if (solid_ && helical) {
         // What stands on the outside is parallel to the axis, and the end towards which the teeth press is supported.
         model_.straight_z = problem.face_width / 2;
         model_.axial_support =

@@ -192,7 +192,7 @@ UnitTooth condense_unit_tooth(const geometry::Mesh& sector_mesh, const geometry:
   body.root_high = observe(model.root_high, model, root_points, loads);
   body.rim = observe(model.rim, model, rim_points, loads);
 
-  tooth.sector = condense(model, loads, options.sector.held == HeldBoundary::none);
+  tooth.sector = condense(model, loads, support_of(options.sector.held));
   body.ports = std::move(loads.ports);
   return unit;
 }
@@ -252,7 +252,7 @@ GearBody compose_body(CondensedTooth tooth, const GearBodyOptions& options) {
     for (const auto& part : gauge.parts)
       probes.col(column++).segment(body.root_low.first_load, part.weights.size()) = part.weights;
   std::vector<Eigen::MatrixXd> carried;
-  body.compliance = compose_ring(tooth.sector, body.teeth, options.extent, options.sector.held == HeldBoundary::none,
+  body.compliance = compose_ring(tooth.sector, body.teeth, options.extent, support_of(options.sector.held),
                                  options.threads, probes, &carried);
   column = 0;
   for (auto& gauge : body.gauges) {

@@ -29,7 +29,7 @@ Eigen::MatrixXd turned_stiffness(const CondensedSector& sector) {
 AlteredRing::AlteredRing(const CondensedSector& regular, int sectors, int most, int threads)
     : regular_stiffness_(turned_stiffness(regular)) {
   require(most < sectors / 2, "too many sectors replaced");
-  const CyclicCompliance composed = compose_ring(regular, sectors, {most, false}, false, threads);
+  const CyclicCompliance composed = compose_ring(regular, sectors, {most, false}, SectorSupport::held, threads);
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(composed.interface_size(), composed.interface_size());
   for (int d = 0; d <= most; ++d) {
     interface_compliance_.push_back(Eigen::MatrixXd::Zero(composed.interface_size(), composed.interface_size()));

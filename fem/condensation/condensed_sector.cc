@@ -46,7 +46,7 @@ void CondensedSector::turn_columns(Eigen::MatrixXd& matrix, Eigen::Index first) 
   }
 }
 
-CondensedSector condense(const SectorModel& model, const SectorLoads& loads, bool floating) {
+CondensedSector condense(const SectorModel& model, const SectorLoads& loads, SectorSupport support) {
   const int dim = model.dimension;
   CondensedSector sector;
   sector.dimension = dim;
@@ -82,7 +82,7 @@ CondensedSector condense(const SectorModel& model, const SectorLoads& loads, boo
   const int kept = static_cast<int>(retained.size()), inner = kept - interfaces;
 
   // A floating sector can move rigidly: its complement is singular and needs the shift, of the size of its entries.
-  const double shift = floating ? model.stiffness.diagonal().mean() : 0.0;
+  const double shift = support == SectorSupport::floating ? model.stiffness.diagonal().mean() : 0.0;
   const int acting = static_cast<int>(loads.acting.size());
   const SchurComplement s = schur_complement(model.stiffness, retained, shift, load_columns(model, loads), acting);
 

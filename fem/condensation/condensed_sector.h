@@ -46,7 +46,6 @@ struct CondensedSector {
 /// one per column of `weights`.
 [[nodiscard]] CondensedSector combine_loads(CondensedSector sector, int first, const Eigen::MatrixXd& weights);
 
-/// `floating`: no boundary of the sector is held.
-[[nodiscard]] CondensedSector condense(const SectorModel& model, const SectorLoads& loads, bool floating);
+[[nodiscard]] CondensedSector condense(const SectorModel& model, const SectorLoads& loads, SectorSupport support);
 
 }  // namespace annulus::fem

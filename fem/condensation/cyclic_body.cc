@@ -108,12 +108,13 @@ void CyclicCompliance::add_interface_displacement(int offset, const Eigen::Matri
     lapack::add_product(interfaces_[d], interface_load, displacement);
 }
 
-CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, const RingExtent& extent, bool floating,
-                              int threads, const Eigen::MatrixXd& probes, std::vector<Eigen::MatrixXd>* carried) {
+CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, const RingExtent& extent,
+                              SectorSupport support, int threads, const Eigen::MatrixXd& probes,
+                              std::vector<Eigen::MatrixXd>* carried) {
   require(sectors >= 3, "a ring needs at least three sectors");
   const int max_offset = std::min(extent.max_offset, sectors / 2);
   const int offsets = extent.whole_ring ? sectors / 2 + 1 : std::min(max_offset + 1, sectors / 2) + 1;
-  const HarmonicMatrix harmonics(sector, floating);
+  const HarmonicMatrix harmonics(sector, support);
 
   std::vector<HarmonicSum> partial(harmonic_groups);
   for_each_task(harmonic_groups, threads, [&](std::size_t group) {

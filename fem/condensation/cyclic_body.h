@@ -58,7 +58,7 @@ struct RingExtent {
 /// `threads` only changes the time, never the result. `probes`: loads of sector 0, loads x k; if there are any,
 /// `carried` gets the displacements of all interfaces under each of them, m x sectors.
 [[nodiscard]] CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, const RingExtent& extent,
-                                            bool floating, int threads, const Eigen::MatrixXd& probes = {},
+                                            SectorSupport support, int threads, const Eigen::MatrixXd& probes = {},
                                             std::vector<Eigen::MatrixXd>* carried = nullptr);
 
 }  // namespace annulus::fem

@@ -33,9 +33,10 @@ const Eigen::MatrixXd& CyclicFlexibility::block(int offset) const {
   return blocks_[((offset % sectors_) + sectors_) % sectors_];
 }
 
-CyclicFlexibility compose_loads(const CondensedSector& sector, int sectors, bool floating, double scale, int threads) {
+CyclicFlexibility compose_loads(const CondensedSector& sector, int sectors, SectorSupport support, double scale,
+                                int threads) {
   require(sectors >= 3, "a ring needs at least three sectors");
-  const HarmonicMatrix interfaces(sector, floating);
+  const HarmonicMatrix interfaces(sector, support);
   const auto loads = sector.compliance.cols();
   const Eigen::MatrixXcd low = interfaces.load_low().leftCols(loads), high = interfaces.load_high().leftCols(loads);
   const Eigen::MatrixXcd within = sector.compliance.topRows(loads);

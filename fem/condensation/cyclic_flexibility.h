@@ -35,7 +35,7 @@ class CyclicFlexibility {
 
 /// Composes the ring exactly for the ports and acting loads of the sector. A floating one is as in CyclicCompliance.
 /// `scale` multiplies the result (the plane knows loads per unit of width). `threads` only changes the time.
-[[nodiscard]] CyclicFlexibility compose_loads(const CondensedSector& sector, int sectors, bool floating, double scale,
-                                              int threads);
+[[nodiscard]] CyclicFlexibility compose_loads(const CondensedSector& sector, int sectors, SectorSupport support,
+                                              double scale, int threads);
 
 }  // namespace annulus::fem

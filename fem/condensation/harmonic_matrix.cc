@@ -46,7 +46,8 @@ std::vector<Eigen::VectorXcd> harmonic_rigid_motions(const CondensedSector& sect
 
 }  // namespace
 
-HarmonicMatrix::HarmonicMatrix(const CondensedSector& sector, bool floating) : sector_(sector), floating_(floating) {
+HarmonicMatrix::HarmonicMatrix(const CondensedSector& sector, SectorSupport support)
+    : sector_(sector), support_(support) {
   const auto m = sector.interface_stiffness.rows() / 2;
   // Columns of the turned basis: u_high = Q v_next.
   const auto turn_columns = [&](Eigen::MatrixXd matrix) {
@@ -66,7 +67,7 @@ Eigen::MatrixXcd HarmonicMatrix::factor(int harmonic) const {
   const Complex shift = std::polar(1.0, harmonic * sector_.pitch_angle);
   Eigen::MatrixXcd matrix = diagonal_.cast<Complex>() + shift * coupling_.cast<Complex>() +
                             std::conj(shift) * coupling_.transpose().cast<Complex>();
-  if (floating_) {
+  if (support_ == SectorSupport::floating) {
     const double rigid_stiffness = diagonal_.diagonal().mean();
     for (const auto& motion : harmonic_rigid_motions(sector_, harmonic))
       matrix += rigid_stiffness * motion * motion.adjoint();

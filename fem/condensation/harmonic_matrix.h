@@ -10,9 +10,9 @@ namespace annulus::fem {
 /// harmonic: the displacements of interface s are v e^(i h s pitch), each seen in the frame of its own sector.
 class HarmonicMatrix {
  public:
-  /// `floating`: an artificial stiffness is added against the rigid motions of the ring alone (harmonics 0 and 1).
+  /// A floating ring gets an artificial stiffness against its rigid motions alone (harmonics 0 and 1).
   /// `sector` is referred to.
-  HarmonicMatrix(const CondensedSector& sector, bool floating);
+  HarmonicMatrix(const CondensedSector& sector, SectorSupport support);
 
   /// Its Cholesky factor (lower). Throws SolverError when no support resists the harmonic.
   [[nodiscard]] Eigen::MatrixXcd factor(int harmonic) const;
@@ -22,7 +22,7 @@ class HarmonicMatrix {
 
  private:
   const CondensedSector& sector_;
-  bool floating_;
+  SectorSupport support_;
   Eigen::MatrixXd diagonal_, coupling_;  // A_0 and A_1 of the block-circulant matrix
   Eigen::MatrixXd load_low_, load_high_;
 };

@@ -27,7 +27,7 @@ int PlanetOnRollers::patches_per_tooth(int teeth, int slices) {
 }
 
 SupportPlan PlanetOnRollers::bed(const PlanetRollers& rollers, int teeth, std::vector<double> slice_edges,
-                                 bool half_face) {
+                                 FacePart part) {
   // A rigid rim that moves by d presses on half of the bed, by d cos t: the sum of k d cos^2 t over it is N k d / 4.
   const int per_tooth = patches_per_tooth(teeth, static_cast<int>(slice_edges.size()) - 1);
   const int patches = teeth * per_tooth;
@@ -37,7 +37,7 @@ SupportPlan PlanetOnRollers::bed(const PlanetRollers& rollers, int teeth, std::v
   sites.against_turning = true;
   for (int i = 0; i < patches; ++i)
     sites.sites.push_back({first + i * spacing, spacing / 2, false, {{-1, 0, true, rollers.play, patch}}});
-  SupportPlan plan(std::move(sites), teeth, std::move(slice_edges), half_face);
+  SupportPlan plan(std::move(sites), teeth, std::move(slice_edges), part);
   plan.apply_on_other_flank(places);
   return plan;
 }

@@ -26,7 +26,7 @@ class PlanetOnRollers {
   /// The bed of a planet: up to four patches behind every tooth, on their own unilateral in every slice. Of one patch
   /// the load zone would have to be some teeth wide.
   [[nodiscard]] static SupportPlan bed(const PlanetRollers& rollers, int teeth, std::vector<double> slice_edges,
-                                       bool half_face);
+                                       FacePart part);
 
   /// Patches behind every tooth.
   [[nodiscard]] static int patches_per_tooth(int teeth, int slices);

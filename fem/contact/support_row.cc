@@ -8,12 +8,8 @@
 
 namespace annulus::fem {
 
-SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, bool half_face, double turn)
-    : sites_(std::move(sites)),
-      slice_edges_(std::move(slice_edges)),
-      half_face_(half_face),
-      turn_(turn),
-      teeth_(teeth) {
+SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, FacePart part, double turn)
+    : sites_(std::move(sites)), slice_edges_(std::move(slice_edges)), part_(part), turn_(turn), teeth_(teeth) {
   const double pitch = 2 * M_PI / teeth;
   const int slices = static_cast<int>(slice_edges_.size()) - 1;
   constexpr double same = 1e-10;  // rad: round-off of angles of a few turns
@@ -77,7 +73,7 @@ void SupportPlan::apply_on_other_flank(int places) {
 Eigen::MatrixXd SupportPlan::own_compliance() const {
   const auto n = static_cast<Eigen::Index>(forces_.size());
   const auto& edges = slice_edges_;
-  const double width = (half_face_ ? 2 : 1) * (edges.back() - edges.front());
+  const double width = (half_face() ? 2 : 1) * (edges.back() - edges.front());
   Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto& force = forces_[i];
@@ -92,7 +88,7 @@ Eigen::MatrixXd SupportPlan::own_compliance() const {
     const Eigen::Index first = i - force.slice;
     for (Eigen::Index j = first; j < first + static_cast<Eigen::Index>(edges.size()) - 1; ++j) {
       const double a = middle(force.slice), b = middle(j - first);
-      const double share = half_face_ ? 1 : (1 - a) * (1 - b) + a * b;
+      const double share = half_face() ? 1 : (1 - a) * (1 - b) + a * b;
       compliance(i, j) += share * 2 / own.end_stiffness;
     }
   }

@@ -8,6 +8,7 @@
 
 #include "fem/body/gear_body.h"
 #include "fem/problem/loaded_mesh_result.h"
+#include "fem/problem/solved_face.h"
 #include "fem/problem/support_sites.h"
 
 namespace annulus::fem {
@@ -16,10 +17,11 @@ namespace annulus::fem {
 /// which of them make up each support force. Equal supports on N teeth share p / gcd(p, N) places.
 class SupportPlan {
  public:
-  /// `slice_edges`: z of the slices of the face width, each with its own forces; in the plane one slice. `half_face`:
-  /// they are the lower half of a symmetric face (see SolvedFace). `turn`: rad, of helical teeth in the middle of the
+  /// `slice_edges`: z of the slices of the face width, each with its own forces; in the plane one slice. `part`: of the
+  /// face that they cover (see SolvedFace). `turn`: rad, of helical teeth in the middle of the
   /// face against z = 0 (BodyPlan::turn); sites are at angles from there.
-  SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, bool half_face = false, double turn = 0);
+  SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, FacePart part = FacePart::whole,
+              double turn = 0);
   /// Adds forces that are given instead of sought: on every tooth at so many places of its other flank, in that order.
   void apply_on_other_flank(int places);
 
@@ -32,7 +34,7 @@ class SupportPlan {
   };
   [[nodiscard]] const SupportSites& sites() const { return sites_; }
   [[nodiscard]] const std::vector<double>& slice_edges() const { return slice_edges_; }
-  [[nodiscard]] bool half_face() const { return half_face_; }
+  [[nodiscard]] bool half_face() const { return part_ == FacePart::half; }
   /// Neither moves along the axis nor tilts: an end face of a helical ring bears its axial force.
   [[nodiscard]] bool held_axially() const { return turn_ != 0; }
   /// [site][direction][slice], the torque, applied forces
@@ -48,7 +50,7 @@ class SupportPlan {
  private:
   SupportSites sites_;
   std::vector<double> slice_edges_;
-  bool half_face_;
+  FacePart part_;
   double turn_;
   std::vector<Force> forces_;
   std::vector<ArcLoad> arcs_;

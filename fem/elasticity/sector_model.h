@@ -42,6 +42,11 @@ struct VertexField {
 
 /// Which boundary of a sector is held.
 enum class HeldBoundary { none, support, end_low, flange_face, both_ends };
+/// Whether any boundary of a sector is held: a floating ring moves rigidly.
+enum class SectorSupport { held, floating };
+[[nodiscard]] inline SectorSupport support_of(HeldBoundary held) {
+  return held == HeldBoundary::none ? SectorSupport::floating : SectorSupport::held;
+}
 
 /// One discretised tooth sector, free of deal.II: stiffness over the DOFs that are not held, and the nodes that
 /// matter to the outside.

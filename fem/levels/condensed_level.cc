@@ -185,14 +185,17 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
     }
   };
   SolvedLevel result;
-  const bool one_cycle = problem.structure.repeating_teeth(problem.pair.wheel().teeth()) == 1;
+  const auto tasks = problem.structure.repeating_teeth(problem.pair.wheel().teeth()) == 1 ? PositionTasks::by_load
+                                                                                          : PositionTasks::by_phase;
   const double compared = accept ? compared_share(problem) : 1;
-  solve_positions(problem, settings, false, one_cycle, solver, part_of(progress, 0, compared), result.positions);
+  solve_positions(problem, settings, PositionsOf::comparison, tasks, solver, part_of(progress, 0, compared),
+                  result.positions);
   result.own.planet_notch = bodies.planet_notch.error;
   result.own.wheel_notch = bodies.wheel_notch.error;
   if (accept) result.own.contact = contact_error(problem, flanks, bodies, options, result.positions);
   if (accept && accept(result)) {
-    solve_positions(problem, settings, true, one_cycle, solver, part_of(progress, compared, 1), result.positions);
+    solve_positions(problem, settings, PositionsOf::table, tasks, solver, part_of(progress, compared, 1),
+                    result.positions);
     result.stress_curves = worst_curves(problem, bodies, system, result.positions);
     result.gauges = gauge_histories(problem, flanks, result.positions);
     if (settings.recovery == Recovery::fields) result.fields = worst_fields(problem, bodies, system, result.positions);

@@ -33,20 +33,19 @@ double compared_share(const LoadedMeshProblem& problem) {
   return static_cast<double>(compared) / (problem.phases * loads);
 }
 
-void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,
-                     const PositionSolver& solver, const ProgressFunction& progress,
+void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, PositionsOf wanted,
+                     PositionTasks tasks, const PositionSolver& solver, const ProgressFunction& progress,
                      std::vector<LoadedPosition>& positions) {
   const int loads = static_cast<int>(problem.loads.size()), phases = problem.phases;
   const int cycles = problem.structure.repeating_teeth(problem.pair.wheel().teeth());
   positions.resize(static_cast<std::size_t>(cycles * phases + 1) * loads);
-  // Chained: one task per load, neighbouring phases warm-start each other. Otherwise one task per load and phase, in
-  // which the pins move on from cycle to cycle.
-  const int tasks = chained ? loads : loads * (phases + 1);
+  const bool by_load = tasks == PositionTasks::by_load;
+  const int count = by_load ? loads : loads * (phases + 1);
   int done = 0;
   std::mutex lock;
-  for_each_task(tasks, settings.threads, [&](std::size_t task) {
+  for_each_task(count, settings.threads, [&](std::size_t task) {
     const int load = static_cast<int>(task) % loads;
-    const int first_phase = chained ? 0 : static_cast<int>(task) / loads, last_phase = chained ? phases : first_phase;
+    const int first_phase = by_load ? 0 : static_cast<int>(task) / loads, last_phase = by_load ? phases : first_phase;
     PositionTask state;
     const auto find_stresses = [&](std::size_t from) {
       if (state.without_stress.size() < from || state.without_stress.empty()) return;
@@ -55,7 +54,7 @@ void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings&
     };
     constexpr std::size_t at_once = 16;
     for (int phase = first_phase; phase <= last_phase; ++phase) {
-      if (!table && !is_compared(problem, phase, load)) continue;
+      if (wanted == PositionsOf::comparison && !is_compared(problem, phase, load)) continue;
       for (int cycle = phase == phases ? cycles - 1 : 0; cycle < cycles; ++cycle) {
         auto& position = positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load];
         if (position.entry.stiffness_secant != 0) continue;
@@ -68,7 +67,7 @@ void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings&
     find_stresses(1);
     const std::lock_guard guard(lock);
     ++done;
-    if (progress) progress(static_cast<double>(done) / tasks);
+    if (progress) progress(static_cast<double>(done) / count);
   });
   check_rise(problem, positions);
 }

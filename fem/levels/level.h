@@ -62,10 +62,14 @@ struct PositionSolver {
 [[nodiscard]] ProgressFunction part_of(const ProgressFunction& progress, double from, double to);
 /// The compared positions over all.
 [[nodiscard]] double compared_share(const LoadedMeshProblem& problem);
-/// The positions of one level on the threads of the settings: never dependent on their number. `table`: all that
-/// `positions` does not hold yet, else the compared ones alone.
-void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,
-                     const PositionSolver& solver, const ProgressFunction& progress,
+/// Which positions are solved: the compared ones alone, or all of the table that are not solved yet.
+enum class PositionsOf { comparison, table };
+/// The tasks in which they are solved. by_load: the phases of a load, which warm-start each other. by_phase: the mesh
+/// cycles of one load and phase, from each of which the pins move on to the next.
+enum class PositionTasks { by_load, by_phase };
+/// The positions of one level on the threads of the settings: never dependent on their number.
+void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, PositionsOf wanted,
+                     PositionTasks tasks, const PositionSolver& solver, const ProgressFunction& progress,
                      std::vector<LoadedPosition>& positions);
 
 }  // namespace annulus::fem

@@ -148,10 +148,12 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const Stopwatch meshing;
   const auto& pair = problem.pair;
   const bool solid = settings.fidelity == Fidelity::solid;
+  const auto dimension = solid ? BodyPlan::Dimension::solid : BodyPlan::Dimension::plane;
   const SolvedFace face = solved_face(problem, settings);
-  const BodyPlan planet_plan(problem, flanks.pinion(), false, geometry::Boundary::leading_flank, settings.degree, solid,
-                             face);
-  const BodyPlan wheel_plan(problem, flanks.wheel(), true, flanks.wheel_flank(), settings.degree, solid, face);
+  const BodyPlan planet_plan(problem, flanks.pinion(), BodyPlan::Role::planet, geometry::Boundary::leading_flank,
+                             settings.degree, dimension, face);
+  const BodyPlan wheel_plan(problem, flanks.wheel(), BodyPlan::Role::wheel, flanks.wheel_flank(), settings.degree,
+                            dimension, face);
   const int neighbours = most_pairs_in(possible_contacts(flanks), flanks) - 1;
   const TaskMaker maker(problem, settings, level, std::max(1, neighbours));
   const BodyResolution& counts = maker.solid_counts();
@@ -159,12 +161,12 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   if (wheel_plan.floating())
     // A slice per layer of elements: unilateral on its own.
     supports.emplace(support_sites(problem), pair.wheel().teeth(),
-                     wheel_plan.support_edges(support_slices(problem, counts.face_cells)), face.half,
+                     wheel_plan.support_edges(support_slices(problem, counts.face_cells)), face.part(),
                      wheel_plan.turn());
   std::optional<SupportPlan> bed;
   if (planet_plan.floating())
     bed = PlanetOnRollers::bed(*problem.planet_rollers, pair.pinion().teeth(),
-                               planet_plan.support_edges(support_slices(problem, counts.face_cells)), face.half);
+                               planet_plan.support_edges(support_slices(problem, counts.face_cells)), face.part());
   GearTasks planet = maker.make(planet_plan, bed), wheel = maker.make(wheel_plan, supports);
   if (bed) planet.body.options.other_flank = {PlanetOnRollers::places, 0, face.half ? face.width / 2 : face.width};
   std::vector<StrainGauge> gauges;

@@ -28,10 +28,10 @@ struct PatchResolution {
   BodyResolution regular;
 };
 
-PatchResolution patch_resolution(const geometry::Gear& gear, bool solid, int level) {
+PatchResolution patch_resolution(const geometry::Gear& gear, BodyPlan::Dimension dimension, int level) {
   const double refine = std::pow(level_ratio, level - 1);
   PatchResolution r;
-  if (solid) {
+  if (dimension == BodyPlan::Dimension::solid) {
     r.cells = 3 * refine;
     r.growth = 1 + 0.7 / refine;
     r.at_edge = 1 / 3.0;
@@ -68,9 +68,9 @@ struct Exchangeable {
     options.sector = plan.model();
     return condense_tooth(mesh, plan.profile(), plan.support_radius(), material, options);
   }
-  Exchangeable(BodyPlan body_plan, const Material& material, bool solid, int level, int threads)
+  Exchangeable(BodyPlan body_plan, const Material& material, BodyPlan::Dimension dimension, int level, int threads)
       : plan(std::move(body_plan)),
-        resolution(patch_resolution(plan.profile().gear(), solid, level)),
+        resolution(patch_resolution(plan.profile().gear(), dimension, level)),
         regular_mesh(plan.sector(resolution.regular)),
         regular(condense(plan, material, regular_mesh)),
         ring(regular.sector, plan.profile().gear().teeth(), most_pairs, threads) {}
@@ -119,7 +119,7 @@ void refuse_what_is_not_resolved(const LoadedMeshProblem& problem) {
 struct ResolvedMesh {
   const LoadedMeshProblem& problem;
   const FlankContact& flanks;
-  bool solid;
+  BodyPlan::Dimension dimension;
   SolvedFace face;
   Exchangeable planet, wheel;
   std::vector<double> slice_edges;
@@ -127,14 +127,17 @@ struct ResolvedMesh {
   ResolvedMesh(const LoadedMeshProblem& p, const LoadedMeshSettings& settings, const FlankContact& f, int level)
       : problem(p),
         flanks(f),
-        solid(settings.fidelity == Fidelity::resolved_solid),
+        dimension(settings.fidelity == Fidelity::resolved_solid ? BodyPlan::Dimension::solid
+                                                                : BodyPlan::Dimension::plane),
         face(solved_face(p, settings)),
-        planet({p, f.pinion(), false, geometry::Boundary::leading_flank, settings.degree, solid, face},
-               p.materials.planet, solid, level, settings.threads),
-        wheel({p, f.wheel(), true, f.wheel_flank(), settings.degree, solid, face}, p.materials.wheel, solid, level,
-              settings.threads),
-        slice_edges(
-            face.edges(solid ? slices_per_cell(p, settings.degree) * planet.resolution.regular.face_cells : 1)) {}
+        planet({p, f.pinion(), BodyPlan::Role::planet, geometry::Boundary::leading_flank, settings.degree, dimension,
+                face},
+               p.materials.planet, dimension, level, settings.threads),
+        wheel({p, f.wheel(), BodyPlan::Role::wheel, f.wheel_flank(), settings.degree, dimension, face},
+              p.materials.wheel, dimension, level, settings.threads),
+        slice_edges(face.edges(dimension == BodyPlan::Dimension::solid
+                                   ? slices_per_cell(p, settings.degree) * planet.resolution.regular.face_cells
+                                   : 1)) {}
 
   [[nodiscard]] LoadedPosition solve(double phase, double load) const;
 
@@ -228,9 +231,11 @@ SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedM
     position = mesh.solve(static_cast<double>(phase) / problem.phases, problem.loads[load]);
   }};
   const double compared = accept ? compared_share(problem) : 1;
-  solve_positions(problem, settings, false, false, solver, part_of(progress, 0, compared), result.positions);
+  solve_positions(problem, settings, PositionsOf::comparison, PositionTasks::by_phase, solver,
+                  part_of(progress, 0, compared), result.positions);
   if (accept && accept(result))
-    solve_positions(problem, settings, true, false, solver, part_of(progress, compared, 1), result.positions);
+    solve_positions(problem, settings, PositionsOf::table, PositionTasks::by_phase, solver,
+                    part_of(progress, compared, 1), result.positions);
   result.contact_seconds = solving.seconds();
   result.unknowns = mesh.planet.regular.body.unknowns + mesh.wheel.regular.body.unknowns;
   result.half_face = mesh.face.half;

@@ -14,9 +14,12 @@ namespace annulus::fem {
 /// The part of the face width on which a solid mesh is solved: all of it, z from 0 to `width`, or of a problem that is
 /// its own mirror image about the middle the lower half, up to a plane of symmetry at z = width / 2. A half is loaded
 /// with half of the load; its forces are those of the whole face there, and so are its displacements and stresses.
+enum class FacePart { whole, half };
 struct SolvedFace {
   double width = 0;  ///< m, of the whole face
   bool half = false;
+
+  [[nodiscard]] FacePart part() const { return half ? FacePart::half : FacePart::whole; }
 
   /// Borders of `pieces` equal pieces of the whole face, as far as they are solved, m: a half cuts the middle one of an
   /// odd number in two.

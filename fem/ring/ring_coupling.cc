@@ -31,8 +31,8 @@ geometry::Gear mirrored(const geometry::Gear& gear) {
 std::optional<SupportPlan> support_plan(const LoadedMeshProblem& problem, const BodyPlan& body) {
   if (!on_single_supports(problem.structure)) return std::nullopt;
   const auto& [below, above] = problem.wheel_overhang;
-  return SupportPlan(support_sites(problem), problem.pair.wheel().teeth(), {-below, problem.face_width + above}, false,
-                     body.turn());
+  return SupportPlan(support_sites(problem), problem.pair.wheel().teeth(), {-below, problem.face_width + above},
+                     FacePart::whole, body.turn());
 }
 
 /// Mesh forces of all planets, planet 0 at `position`: teeth x planets.
@@ -77,8 +77,8 @@ SolvedRingCoupling solve_level(const LoadedMeshProblem& problem, const std::vect
   const auto planets = static_cast<Eigen::Index>(teeth_ahead.size());
   const bool solid = solved_as_solid(problem, settings.model);
   const geometry::ToothProfile profile(mirrored(problem.pair.wheel()));
-  const BodyPlan body(problem, profile, true, geometry::Boundary::trailing_flank, settings.degree, solid,
-                      {problem.face_width, false});
+  const BodyPlan body(problem, profile, BodyPlan::Role::wheel, geometry::Boundary::trailing_flank, settings.degree,
+                      solid ? BodyPlan::Dimension::solid : BodyPlan::Dimension::plane, {problem.face_width, false});
   const auto plan = support_plan(problem, body);
   RingFlexibilityOptions options;
   options.roll = problem.pair.wheel_roll_length(problem.pair.roll_length_pitch());

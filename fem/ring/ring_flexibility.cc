@@ -64,7 +64,7 @@ SectorLoads ring_loads(const SectorModel& model, const geometry::ToothProfile& p
 
 namespace {
 
-FlexibleSector condense_flexible(const SectorModel& model, const SectorLoads& loads, bool floating) {
+FlexibleSector condense_flexible(const SectorModel& model, const SectorLoads& loads, SectorSupport support) {
   FlexibleSector result;
   result.unknowns = model.stiffness.rows();
   result.resultants.resize(3, static_cast<Eigen::Index>(loads.acting.size()));
@@ -72,7 +72,7 @@ FlexibleSector condense_flexible(const SectorModel& model, const SectorLoads& lo
     const Wrench wrench = resultant(loads.acting[i], model.nodes);
     result.resultants.col(static_cast<Eigen::Index>(i)) << wrench[0], wrench[1], wrench[5];
   }
-  result.sector = condense(model, loads, floating);
+  result.sector = condense(model, loads, support);
   return result;
 }
 
@@ -100,7 +100,7 @@ UnitFlexibleSector condense_unit_flexible(const BodyPlan& plan, const geometry::
     unit.outside = OutsideLoads::of(options.arcs, model.outside);
     for (auto& load : unit.outside.unit_loads(model.outside)) loads.acting.push_back(std::move(load));
   }
-  unit.sector = condense_flexible(model, loads, plan.floating());
+  unit.sector = condense_flexible(model, loads, support_of(wanted.held));
   return unit;
 }
 
@@ -118,7 +118,7 @@ FlexibleSector with_arcs(UnitFlexibleSector unit, const std::vector<ArcLoad>& ar
 
 }  // namespace
 
-RingFlexibility compose_flexibility(const FlexibleSector& sector, const geometry::Gear& gear, bool floating,
+RingFlexibility compose_flexibility(const FlexibleSector& sector, const geometry::Gear& gear, SectorSupport support,
                                     const RingFlexibilityOptions& options) {
   RingFlexibility ring;
   ring.teeth = gear.teeth();
@@ -128,13 +128,13 @@ RingFlexibility compose_flexibility(const FlexibleSector& sector, const geometry
   ring.motions = static_cast<int>(sector.resultants.cols()) - 1 - ring.arcs;
   ring.unknowns = sector.unknowns;
   ring.resultants = sector.resultants;
-  ring.compliance = compose_loads(sector.sector, ring.teeth, floating, 1 / known_width(options), options.threads);
+  ring.compliance = compose_loads(sector.sector, ring.teeth, support, 1 / known_width(options), options.threads);
   return ring;
 }
 
 RingFlexibility compose_flexibility(const SectorModel& model, const SectorLoads& loads, const geometry::Gear& gear,
-                                    bool floating, const RingFlexibilityOptions& options) {
-  return compose_flexibility(condense_flexible(model, loads, floating), gear, floating, options);
+                                    SectorSupport support, const RingFlexibilityOptions& options) {
+  return compose_flexibility(condense_flexible(model, loads, support), gear, support, options);
 }
 
 RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution& resolution, const Material& material,
@@ -152,8 +152,8 @@ RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution
   inputs(options.roll, options.face_width, options.overhang, options.solid, options.motions.section,
          options.motions.axial);
   const bool reused = read_or_make(options.store, inputs, unit, make);
-  RingFlexibility ring =
-      compose_flexibility(with_arcs(std::move(unit), options.arcs), plan.profile().gear(), plan.floating(), options);
+  RingFlexibility ring = compose_flexibility(with_arcs(std::move(unit), options.arcs), plan.profile().gear(),
+                                             support_of(wanted.held), options);
   ring.reused = reused;
   return ring;
 }

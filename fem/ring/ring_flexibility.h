@@ -57,13 +57,13 @@ struct FlexibleSector {
 };
 
 /// Its steps: the loads of a sector that has its nodal mass (and its outside, for arcs), and their compliance in
-/// the ring. `floating`: nothing holds the sector.
+/// the ring.
 [[nodiscard]] SectorLoads ring_loads(const SectorModel& model, const geometry::ToothProfile& profile,
                                      geometry::Boundary flank, const RingFlexibilityOptions& options);
 [[nodiscard]] RingFlexibility compose_flexibility(const SectorModel& model, const SectorLoads& loads,
-                                                  const geometry::Gear& gear, bool floating,
+                                                  const geometry::Gear& gear, SectorSupport support,
                                                   const RingFlexibilityOptions& options);
 [[nodiscard]] RingFlexibility compose_flexibility(const FlexibleSector& sector, const geometry::Gear& gear,
-                                                  bool floating, const RingFlexibilityOptions& options);
+                                                  SectorSupport support, const RingFlexibilityOptions& options);
 
 }  // namespace annulus::fem

@@ -97,10 +97,10 @@ BOOST_AUTO_TEST_CASE(lists_are_told_in_words) {
   log::set_level(log::Level::quiet);
   app::Reuse reuse;
   BOOST_TEST(reuse.text().empty());
-  reuse.note("b", true);
-  reuse.note("a", true);
-  reuse.note("c", false);
-  reuse.note("c", true);  // computed, then read back by a later step
+  reuse.note("b", app::ResultSource::reused);
+  reuse.note("a", app::ResultSource::reused);
+  reuse.note("c", app::ResultSource::computed);
+  reuse.note("c", app::ResultSource::reused);  // computed, then read back by a later step
   reuse.count(app::condensed_teeth, 2, 1);
   reuse.count(app::study_responses, 0, 0);
   BOOST_TEST(reuse.text() == "reused   a, b, 2 tooth superelements\ncomputed c, 1 tooth superelements\n");

@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(the_strains_of_all_planets_add_up) {
     BOOST_TEST(readings.gauges[g].error < 0.5 * readings.gauges[g].range());
   }
   BOOST_TEST(!readings.face_load_factor(0));
-  const auto csv = app::to_csv(readings, false);
+  const auto csv = app::to_csv(readings, app::GaugeFrame::ring);
   BOOST_TEST(csv.rows.size() == alone.rows.size());
   BOOST_TEST(csv.header_value("gauge_2").value() == "outside");
 }

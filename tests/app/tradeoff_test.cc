@@ -177,8 +177,8 @@ BOOST_AUTO_TEST_CASE(settings_keep_the_problem_but_for_what_they_set) {
   const double nominal = planned.problem->loads[planned.nominal_load()];
   int finest = 0;
   std::vector<std::string> folders;
-  for (const auto& setting : app::mesh_settings(planned, false)) {
-    const auto model = setting.applied(planned, false);
+  for (const auto& setting : app::mesh_settings(planned, app::AlongFace::uniform)) {
+    const auto model = setting.applied(planned, app::AlongFace::uniform);
     finest += setting.finest;
     folders.push_back(setting.folder());
     BOOST_TEST(model.problem->loads[model.nominal_load()] == nominal);
@@ -197,8 +197,8 @@ BOOST_AUTO_TEST_CASE(errors_fall_toward_the_finest_and_measurements_are_kept, *i
   const auto scene = app::parse_scene(computed_ring_scene(), "scene.toml");
   const app::RunOptions options{.out = folder.path(), .threads = 1};
   app::TradeLists lists;
-  lists.mesh = [](const app::MeshModel&, bool needs_solid) {
-    BOOST_TEST(!needs_solid);
+  lists.mesh = [](const app::MeshModel&, app::AlongFace face) {
+    BOOST_TEST((face == app::AlongFace::uniform));
     using fem::Fidelity;
     return std::vector<app::MeshSetting>{
         {.fidelity = Fidelity::closed_form, .phases = 16, .loads = 1},
@@ -282,8 +282,8 @@ BOOST_AUTO_TEST_CASE(a_pair_is_traded_too, *in_a_process_of_its_own) {
   app::TradeLists lists;
   lists.accuracies = {0.1};
   lists.motions = false;
-  lists.mesh = [](const app::MeshModel&, bool needs_solid) {
-    const auto fidelity = needs_solid ? fem::Fidelity::solid : fem::Fidelity::plane;
+  lists.mesh = [](const app::MeshModel&, app::AlongFace face) {
+    const auto fidelity = face == app::AlongFace::varying ? fem::Fidelity::solid : fem::Fidelity::plane;
     return std::vector<app::MeshSetting>{
         {.fidelity = fidelity, .degree = 1, .level = 1, .phases = 8, .loads = 1},
         {.fidelity = fidelity, .degree = 2, .level = 1, .phases = 8, .loads = 1, .finest = true}};

@@ -77,7 +77,8 @@ ComposedRing composed_ring(double height, int radial_cells, int angular_cells) {
   annulus::fem::SectorLoads loads;
   for (const Eigen::Vector3d& direction : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)})
     for (const int n : line) loads.ports.push_back({n, direction});
-  ring.compliance = compose_ring(condense(model, loads, true), sectors, {sectors / 2, true}, true, 1);
+  ring.compliance = compose_ring(condense(model, loads, SectorSupport::floating), sectors, {sectors / 2, true},
+                                 SectorSupport::floating, 1);
   return ring;
 }
 

@@ -7,17 +7,17 @@
 namespace annulus::tests {
 namespace {
 
-fem::LoadedMeshSettings settings_for(fem::Fidelity fidelity, bool symmetry, int degree) {
+fem::LoadedMeshSettings settings_for(fem::Fidelity fidelity, Symmetry symmetry, int degree) {
   fem::LoadedMeshSettings settings;
   settings.fidelity = fidelity;
-  settings.symmetry = symmetry;
+  settings.symmetry = symmetry == Symmetry::used;
   settings.degree = degree;
   return settings;
 }
 
 }  // namespace
 
-ContactBench::ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Fidelity fidelity, bool symmetry,
+ContactBench::ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Fidelity fidelity, Symmetry symmetry,
                            int degree)
     : problem_(problem),
       flanks_(problem.pair),

@@ -5,12 +5,14 @@
 
 namespace annulus::tests {
 
+/// As LoadedMeshSettings::symmetry. Off, bodies serve misalignments too.
+enum class Symmetry { off, used };
+
 /// A gear mesh solved position by position at one level of resolution, without the coarser level that estimates errors.
 class ContactBench {
  public:
-  /// `symmetry` as in LoadedMeshSettings: off, so that bodies serve misalignments too.
   ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Fidelity fidelity = fem::Fidelity::plane,
-               bool symmetry = false, int degree = 2);
+               Symmetry symmetry = Symmetry::off, int degree = 2);
   ContactBench(const ContactBench&) = delete;
   ContactBench& operator=(const ContactBench&) = delete;
 

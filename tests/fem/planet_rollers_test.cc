@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(the_whole_planet_as_one_matrix) {
   for (const bool ring : {false, true}) {
     const double play = 15e-6;
     const auto problem = on_rollers(mesh(ring), ring ? 1.5 : 2.5, play);
-    ContactBench bench(problem, 1, annulus::fem::Fidelity::plane, false, 1);
+    ContactBench bench(problem, 1, annulus::fem::Fidelity::plane, Symmetry::off, 1);
     const auto position = bench.solve(0.2, nominal_load);
     const auto forces = bench.forces(0.2, nominal_load);
     const auto planet = whole_planet(bench, problem, position.rollers.size());
@@ -366,8 +366,8 @@ BOOST_AUTO_TEST_CASE(light_loads_in_wide_bearings) {
 // Half of a symmetric solid is the whole one.
 BOOST_AUTO_TEST_CASE(half_of_the_face_is_the_whole) {
   auto problem = on_rollers(mesh(false), 2, 10e-6);
-  ContactBench whole(problem, 1, annulus::fem::Fidelity::solid, false, 1),
-      half(problem, 1, annulus::fem::Fidelity::solid, true, 1);
+  ContactBench whole(problem, 1, annulus::fem::Fidelity::solid, Symmetry::off, 1),
+      half(problem, 1, annulus::fem::Fidelity::solid, Symmetry::used, 1);
   const auto a = whole.solve(0.3, nominal_load), b = half.solve(0.3, nominal_load);
   BOOST_TEST(std::abs(a.entry.lte - b.entry.lte) <= 1e-6 * a.entry.lte);
   for (std::size_t i = 0; i < a.rollers.size(); ++i)

@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_tooth_replaced_by_its_like_changes_nothing) {
                                      "the ring composed of equal teeth by harmonics");
   const CondensedTooth regular = tooth(-1);
   const AlteredRing ring(regular.sector, 162, 3, 1);
-  const auto composed = compose_ring(regular.sector, 162, {3, false}, false, 1);
+  const auto composed = compose_ring(regular.sector, 162, {3, false}, annulus::fem::SectorSupport::held, 1);
   const Eigen::MatrixXd two = ring.compliance({&regular.sector, &regular.sector});
   const Eigen::Index ports = regular.sector.ports;
   const double whole = composed.block(0).norm();

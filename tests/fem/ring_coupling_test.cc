@@ -57,8 +57,9 @@ struct PinnedRing {
   static annulus::fem::RingFlexibility flexibility_of(const LoadedMeshProblem& problem,
                                                       const annulus::fem::SupportPlan& plan) {
     const annulus::geometry::ToothProfile profile(problem.pair.wheel());
-    const annulus::fem::BodyPlan body(problem, profile, true, annulus::geometry::Boundary::trailing_flank, 2, false,
-                                      {problem.face_width, false});
+    const annulus::fem::BodyPlan body(problem, profile, annulus::fem::BodyPlan::Role::wheel,
+                                      annulus::geometry::Boundary::trailing_flank, 2,
+                                      annulus::fem::BodyPlan::Dimension::plane, {problem.face_width, false});
     annulus::fem::RingFlexibilityOptions options;
     options.roll = problem.pair.wheel_roll_length(problem.pair.roll_length_pitch());
     options.face_width = problem.face_width;
@@ -111,7 +112,7 @@ BOOST_AUTO_TEST_CASE(mesh_and_inertia_loads_of_a_held_ring_are_those_of_the_whol
 BOOST_AUTO_TEST_CASE(a_ring_on_bolts_is_the_whole_mesh_on_springs_and_superposes) {
   annulus::test::Verification record("Compliance of a ring on bolts", "the whole mesh on springs, solved directly");
   constexpr int teeth = 36;
-  const auto plan = small_ring_pins(teeth, {0.1, 1.3, 2.2, 3.5, 4.05, 5.4}, 2e8, 7e7, false, 1e-6);
+  const auto plan = small_ring_pins(teeth, {0.1, 1.3, 2.2, 3.5, 4.05, 5.4}, 2e8, 7e7, SmallPins::both_ways, 1e-6);
   const SmallRing ring = small_ring(teeth, SmallHeld::floating, {1, 0}, &plan);
   const RingOnSupports supported(ring.flexibility, plan);
   const FreeSystem system(ring.whole.stiffness + ring.support_stiffness(plan), ring.fixed);
@@ -157,7 +158,7 @@ BOOST_AUTO_TEST_CASE(pins_that_lift_off_satisfy_their_conditions_on_the_whole_me
   annulus::test::Verification record("A ring on pins that lift off",
                                      "equilibrium and complementarity, checked on the whole mesh");
   constexpr int teeth = 36;
-  const auto plan = small_ring_pins(teeth, annulus::fem::equal_angles(9, 0.05), 4e8, 4e8, true);
+  const auto plan = small_ring_pins(teeth, annulus::fem::equal_angles(9, 0.05), 4e8, 4e8, SmallPins::unilateral);
   const SmallRing ring = small_ring(teeth, SmallHeld::floating, {1, 0}, &plan);
   const RingOnSupports supported(ring.flexibility, plan);
   const Eigen::Index planets = 3;

@@ -68,7 +68,8 @@ RingFlexibility plain_ring(double height, int sectors, const MotionOrder& motion
   ring.base_radius = 1;
   ring.motions = static_cast<int>(loads.acting.size()) - 1;
   ring.resultants = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(loads.acting.size()));
-  ring.compliance = compose_loads(condense(model, loads, true), sectors, true, 1, 1);
+  ring.compliance = compose_loads(condense(model, loads, annulus::fem::SectorSupport::floating), sectors,
+                                  annulus::fem::SectorSupport::floating, 1, 1);
   return ring;
 }
 
@@ -196,7 +197,7 @@ BOOST_AUTO_TEST_CASE(held_rings_against_the_modes_of_the_whole_mesh) {
 BOOST_AUTO_TEST_CASE(rings_on_bolts_against_the_modes_of_the_whole_mesh) {
   annulus::test::Verification record("Reduced modes of a ring on bolts", "modes of the whole mesh on springs");
   constexpr int teeth = 36;
-  const auto plan = small_ring_pins(teeth, {0.1, 1.3, 2.2, 3.5, 4.05, 5.4}, 2e8, 7e7, true);
+  const auto plan = small_ring_pins(teeth, {0.1, 1.3, 2.2, 3.5, 4.05, 5.4}, 2e8, 7e7, SmallPins::unilateral);
   const SmallRing ring = small_ring(teeth, SmallHeld::floating, {2, 0}, &plan);
   const Eigen::VectorXd exact =
       lowest_frequencies(ring.whole.stiffness + ring.support_stiffness(plan), ring.whole_mass(), 10);
@@ -211,7 +212,8 @@ BOOST_AUTO_TEST_CASE(on_soft_bolts_the_first_modes_are_rigid_motions) {
   annulus::test::Verification record("A ring on soft bolts", "closed form: a rigid body on springs");
   constexpr int teeth = 36, pins = 9;
   const double radial = 3e4, tangential = 2e4;
-  const auto plan = small_ring_pins(teeth, annulus::fem::equal_angles(pins, 0.1), radial, tangential, false);
+  const auto plan =
+      small_ring_pins(teeth, annulus::fem::equal_angles(pins, 0.1), radial, tangential, SmallPins::both_ways);
   const SmallRing ring = small_ring(teeth, SmallHeld::floating, {1, 0}, &plan);
   const RingOnSupports supports(ring.flexibility, plan);
   const auto modes = supported_ring_modes(ring.flexibility, supports, {3});

@@ -94,14 +94,14 @@ Eigen::SparseMatrix<double> SmallRing::whole_mass() const {
 }
 
 fem::SupportPlan small_ring_pins(int teeth, std::vector<double> angles, double radial, double tangential,
-                                 bool unilateral, double clearance) {
+                                 SmallPins kind, double clearance) {
   fem::PinHeld pins;
   pins.angles = std::move(angles);
   pins.pin_diameter = 2e-3;
   pins.clearance = clearance;
   pins.radial_stiffness = radial;
   pins.tangential_stiffness = tangential;
-  pins.unilateral = unilateral;
+  pins.unilateral = kind == SmallPins::unilateral;
   const double outside = small_gear(teeth).root_radius() + rim;
   return {pins.supports({teeth, outside, width, {}}), teeth, {0, width}};
 }
@@ -143,7 +143,7 @@ SmallRing small_ring(int teeth, SmallHeld held, const fem::MotionOrder& motions,
   wanted.motions = motions;
   if (plan != nullptr) wanted.arcs = plan->arcs();
   ring.loads = fem::ring_loads(ring.sector, profile, options.flank, wanted);
-  ring.flexibility = fem::compose_flexibility(ring.sector, ring.loads, ring.gear, held == SmallHeld::floating, wanted);
+  ring.flexibility = fem::compose_flexibility(ring.sector, ring.loads, ring.gear, support_of(options.held), wanted);
 
   const double pitch = ring.gear.pitch_angle(), support = ring.outside;
   const auto project = [profile, pitch, support](Boundary boundary, const Eigen::Vector2d& point) -> Eigen::Vector2d {

@@ -38,9 +38,10 @@ enum class SmallHeld { outside, sleeve, floating };
 /// `plan`: supports of a floating ring.
 SmallRing small_ring(int teeth, SmallHeld held, const fem::MotionOrder& motions,
                      const fem::SupportPlan* plan = nullptr);
+enum class SmallPins { unilateral, both_ways };
 /// Pins of prescribed stiffness around the small ring.
 fem::SupportPlan small_ring_pins(int teeth, std::vector<double> angles, double radial, double tangential,
-                                 bool unilateral, double clearance = 0);
+                                 SmallPins kind, double clearance = 0);
 
 /// The lowest frequencies (Hz) of K x = omega^2 M x by subspace iteration.
 Eigen::VectorXd lowest_frequencies(const Eigen::SparseMatrix<double>& stiffness,

@@ -219,11 +219,11 @@ BOOST_AUTO_TEST_CASE(a_result_on_half_of_the_face_is_one_of_the_whole) {
 BOOST_AUTO_TEST_CASE(an_odd_number_of_cells_is_as_good_halved) {
   annulus::test::Verification record("Half the face of a crowned ring with an odd number of cells",
                                      "the whole face; what the level leaves, against quadratic elements");
-  // Five linear cells: the one in the middle is cut in two. Of what the level leaves, held against a quadratic
+  // Five linear cells: the one in the middle is cut in two. Of what the level leaves, compared with a quadratic
   // one, that changes the deflection by little, the load of the most loaded slice by up to as much.
   const auto problem = crowned_ring(annulus::fem::OutsideHeld{});
-  ContactBench half(problem, 0, Fidelity::solid, true, 1), whole(problem, 0, Fidelity::solid, false, 1),
-      finer(problem, 1, Fidelity::solid, true);
+  ContactBench half(problem, 0, Fidelity::solid, Symmetry::used, 1),
+      whole(problem, 0, Fidelity::solid, Symmetry::off, 1), finer(problem, 1, Fidelity::solid, Symmetry::used);
   BOOST_TEST(half.bodies().slice_edges.size() == 6U);
   const auto a = half.solve(0.3, nominal_load), b = whole.solve(0.3, nominal_load), c = finer.solve(0.3, nominal_load);
   const double softer = a.entry.lte / b.entry.lte - 1, left = c.entry.lte / b.entry.lte - 1;
@@ -285,8 +285,13 @@ BOOST_AUTO_TEST_CASE(what_differs_along_the_face_is_solved_whole) {
 struct HalfSector {
   LoadedMeshProblem problem = ring_mesh(annulus::fem::OutsideHeld{}, 2);
   annulus::geometry::ToothProfile profile{problem.pair.wheel()};
-  annulus::fem::BodyPlan plan{
-      problem, profile, true, annulus::geometry::Boundary::trailing_flank, 1, true, {problem.face_width, true}};
+  annulus::fem::BodyPlan plan{problem,
+                              profile,
+                              annulus::fem::BodyPlan::Role::wheel,
+                              annulus::geometry::Boundary::trailing_flank,
+                              1,
+                              annulus::fem::BodyPlan::Dimension::solid,
+                              {problem.face_width, true}};
   annulus::geometry::Mesh mesh = plan.sector({{4, 2, 2, 1, 1, 1.0}, 2, 1});
 
   [[nodiscard]] annulus::fem::CondensedTooth condense(const annulus::fem::GearBodyOptions& options) const {
@@ -306,7 +311,7 @@ BOOST_AUTO_TEST_CASE(halves_of_teeth_can_be_exchanged) {
   const int teeth = half.problem.pair.wheel().teeth();
   const annulus::fem::AlteredRing altered(sector, teeth, 3, 1);
   const Eigen::MatrixXd exchanged = altered.compliance({&sector, &sector});
-  const auto regular = annulus::fem::compose_ring(sector, teeth, {3, false}, false, 1);
+  const auto regular = annulus::fem::compose_ring(sector, teeth, {3, false}, annulus::fem::SectorSupport::held, 1);
   const Eigen::Index ports = sector.ports;
   const double largest = regular.block(0).cwiseAbs().maxCoeff();
   record.at_most("compliance of a tooth, relative difference", "",

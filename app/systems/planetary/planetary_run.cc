@@ -32,7 +32,7 @@ std::optional<CouplingEffect> effect_of_coupling(const Scene& scene, dynamics::P
   stage.ring_coupling = nullptr;
   const auto [effect, reused] = cached_value(options.store.get(), cached_effects, id,
                                              [&] { return coupling_effect(stage, *ring_mesh.coupling, simulation); });
-  note_reuse(options, fmt::format("effect of the coupling of ring '{}'", name), reused);
+  note_reuse(options, fmt::format("effect of the coupling of ring '{}'", name), source_of(reused));
   save(effect, id, options.out / name / "dynamics");
   return effect;
 }
@@ -96,7 +96,7 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
   if (options.with_dynamics && may_be_coupled(scene, model)) {
     result.coupling = std::make_shared<SolvedCoupling>(
         solve_coupling(scene, geometry, model, 1 / result.mean_stiffness().value, options, options.out / model.ring));
-    note_reuse(options, fmt::format("coupling of ring '{}'", model.ring), result.coupling->reused);
+    note_reuse(options, fmt::format("coupling of ring '{}'", model.ring), source_of(result.coupling->reused));
   }
   return result;
 }
@@ -120,7 +120,7 @@ std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeomet
                      options.threads);
     return found;
   });
-  note_reuse(options, fmt::format("dynamics of '{}'", name), reused);
+  note_reuse(options, fmt::format("dynamics of '{}'", name), source_of(reused));
   save(response, id, options.out / name / "dynamics");
   response.time_series.clear();
   response.reused = reused;

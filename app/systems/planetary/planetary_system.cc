@@ -102,7 +102,7 @@ class PlanetarySystem final : public GearSystem {
         remove_file(file);
         continue;
       }
-      auto csv = to_csv(*readings, geometry().operating_point.mirrored);
+      auto csv = to_csv(*readings, geometry().operating_point.mirrored ? GaugeFrame::mirrored : GaugeFrame::ring);
       csv.header.insert(
           csv.header.begin(),
           {{"annulus_version", version()}, {"inputs_id", mesh.model.id()}, {"model", mesh.model.fidelity}});

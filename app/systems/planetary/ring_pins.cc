@@ -119,7 +119,7 @@ void check_pins(RingInput& ring, Scene& scene, std::vector<Problem>& problems) {
   PinChecker(scene, problems).check(ring);
 }
 
-fem::PinHeld on_pins(const RingInput& ring, bool unilateral) {
+fem::PinHeld on_pins(const RingInput& ring, PinContact contact) {
   return {.angles = ring.pins ? fem::equal_angles(*ring.pins, ring.first_pin_angle.value_or(0)) : ring.pin_angles,
           .pin_diameter = ring.pin_diameter.value_or(0),
           .clearance = ring.pin_clearance.value_or(0),
@@ -127,7 +127,7 @@ fem::PinHeld on_pins(const RingInput& ring, bool unilateral) {
           .radial_stiffness = ring.pin_radial_stiffness,
           .tangential_stiffness = ring.pin_tangential_stiffness,
           .housing_clearance = ring.housing_clearance,
-          .unilateral = unilateral};
+          .unilateral = contact == PinContact::unilateral};
 }
 
 }  // namespace annulus::app

@@ -12,6 +12,8 @@ namespace annulus::app {
 void declare_pins(const StructureKeys& keys);
 /// Pins have room beside each other; a single one gets the bore of the housing that it needs.
 void check_pins(RingInput& ring, Scene& scene, std::vector<Problem>& problems);
-[[nodiscard]] fem::PinHeld on_pins(const RingInput& ring, bool unilateral);
+/// Radially: a pin lifts off, a bolt holds both ways.
+enum class PinContact { unilateral, both_ways };
+[[nodiscard]] fem::PinHeld on_pins(const RingInput& ring, PinContact contact);
 
 }  // namespace annulus::app

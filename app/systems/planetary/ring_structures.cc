@@ -263,9 +263,9 @@ fem::RingStructure ring_structure(const RingInput& ring) {
     case Structure::thin_walled:
       return thin_walled(ring);
     case Structure::pinned:
-      return on_pins(ring, true);
+      return on_pins(ring, PinContact::unilateral);
     case Structure::bolted:
-      return on_pins(ring, false);
+      return on_pins(ring, PinContact::both_ways);
     case Structure::splined:
       return splined(ring);
     case Structure::clamped:

@@ -91,11 +91,12 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnes
   result.groups = energy.groups;
   result.bodies = energy.bodies;
   std::replace(result.bodies.begin(), result.bodies.end(), std::string("planet"), std::string("planets"));
+  const auto motions = stage.space ? dynamics::Motions::in_space : dynamics::Motions::in_plane;
   for (std::size_t i = 0; i < modes.modes.size(); ++i) {
     const auto& [frequency, shape] = modes.modes[i];
     result.list.push_back({frequency, frequencies[i].figure.error, frequencies[i].parts,
-                           dynamics::to_string(modes.kinds[i], stage.space.has_value()), turning[i].frequency,
-                           turning[i].damping_ratio, column(energy.strain, i), column(energy.kinetic, i)});
+                           dynamics::to_string(modes.kinds[i], motions), turning[i].frequency, turning[i].damping_ratio,
+                           column(energy.strain, i), column(energy.kinetic, i)});
     auto& row = result.shapes.rows.emplace_back(std::vector{static_cast<double>(i + 1), frequency});
     // The largest amplitude is 1: only the shape means something.
     Eigen::Index top = 0;

@@ -239,12 +239,12 @@ std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::
   return readings;
 }
 
-Csv to_csv(const GaugeReadings& readings, bool mirrored) {
-  Csv csv{
-      .header = {{"frame", mirrored ? "mirror image of the stage, in which the torque of the sun is counter-clockwise"
-                                    : "that of the ring, counter-clockwise"}},
-      .columns = {"planet_1_angle_deg"},
-      .rows = {}};
+Csv to_csv(const GaugeReadings& readings, GaugeFrame frame) {
+  Csv csv{.header = {{"frame", frame == GaugeFrame::mirrored
+                                   ? "mirror image of the stage, in which the torque of the sun is counter-clockwise"
+                                   : "that of the ring, counter-clockwise"}},
+          .columns = {"planet_1_angle_deg"},
+          .rows = {}};
   for (std::size_t g = 0; g < readings.gauges.size(); ++g) {
     csv.header.emplace_back(fmt::format("gauge_{}", g + 1), readings.gauges[g].gauge);
     csv.columns.push_back(fmt::format("gauge_{}_um_per_m", g + 1));

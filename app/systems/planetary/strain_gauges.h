@@ -53,8 +53,10 @@ struct GaugeReadings {
 [[nodiscard]] std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::PlanetarySet& set,
                                                           const MeshResult& ring_mesh);
 
-/// strain_gauges.csv of a ring. `mirrored`: of a stage that is computed as its mirror image.
-[[nodiscard]] Csv to_csv(const GaugeReadings& readings, bool mirrored);
+/// Frame of the readings: that of the ring, or of a stage that is computed as its mirror image.
+enum class GaugeFrame { ring, mirrored };
+/// strain_gauges.csv of a ring.
+[[nodiscard]] Csv to_csv(const GaugeReadings& readings, GaugeFrame frame);
 [[nodiscard]] Json to_json(const Scene& scene, const GaugeReadings& readings);
 
 }  // namespace annulus::app

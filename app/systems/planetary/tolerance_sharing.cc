@@ -147,7 +147,7 @@ std::optional<ToleranceSharing> tolerance_sharing(const Scene& scene, const Gear
                   zones, settings.assemblies, settings.seed, settings.torque_shares);
   auto [sharing, reused] = cached_value(options.store.get(), cached_sharing, id,
                                         [&] { return dynamics::assembly_sharing(stage, zones, settings); });
-  note_reuse(options, fmt::format("assemblies of '{}'", name), reused);
+  note_reuse(options, fmt::format("assemblies of '{}'", name), source_of(reused));
   save(sharing, stage.sun_torque, id, options.out / name / "dynamics");
   log::info(fmt::format("load sharing of '{}' within the tolerances: {}", name,
                         reused ? "unchanged, reused" : fmt::format("{} assemblies", t.assemblies)));

@@ -102,7 +102,7 @@ std::shared_ptr<const FaceShape> face_in_motion(const MeshResult& mesh, double m
   try {
     const auto [shape, reused] = cached_value(
         options.store.get(), "faces", id, [&] { return fem::reduced_face(*solid, normal, phases, options.threads); });
-    note_reuse(options, fmt::format("face of the {} mesh", mesh.model.mesh), reused);
+    note_reuse(options, fmt::format("face of the {} mesh", mesh.model.mesh), source_of(reused));
     return std::make_shared<const FaceShape>(shape);
   } catch (const SolverError& error) {  // the face is then even, which face_warnings() says
     log::info(fmt::format("{} mesh: {}", mesh.model.mesh, error.what()));

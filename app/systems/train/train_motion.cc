@@ -257,7 +257,7 @@ std::unique_ptr<TrainRunResponse> train_response(const Scene& scene, const std::
   const auto id = train_id(scene, parts, tables, train, simulation);
   auto [motion, reused] = cached_value(options.store.get(), cached_motions, id,
                                        [&] { return motion_of(scene, parts, tables, train, simulation, options); });
-  note_reuse(options, "dynamics of the train", reused);
+  note_reuse(options, "dynamics of the train", source_of(reused));
   const auto folder = options.out / "dynamics";
   std::filesystem::create_directories(folder);
   auto shafts = motion.shafts;

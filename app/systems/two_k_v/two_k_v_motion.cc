@@ -130,10 +130,6 @@ bool TwoKVMotion::output_moves() const {
   return dynamics::output_moves(error_peak_to_peak.value, static_error_peak_to_peak, error_mean);
 }
 
-double TwoKVMotion::largest(bool arc, Figure dynamics::BranchResult::*result) const {
-  return dynamics::largest(arc ? arc_pins : sun_planet, result).value;
-}
-
 double TwoKVMotion::largest_bearing_force() const {
   double largest = 0;
   for (const auto& bearing : arc_bearings) largest = std::max(largest, bearing.largest);

@@ -41,7 +41,6 @@ struct TwoKVMotion {
   /// Whether the output moves against the input beyond rounding. Constant mesh stiffness moves nothing: the whole load
   /// winds the train up evenly, whatever the crank angle.
   [[nodiscard]] bool output_moves() const;
-  [[nodiscard]] double largest(bool arc, Figure dynamics::BranchResult::*result) const;  ///< of all meshes of the kind
   [[nodiscard]] double largest_bearing_force() const;
 };
 

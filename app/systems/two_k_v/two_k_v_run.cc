@@ -57,7 +57,7 @@ std::unique_ptr<TwoKVResponse> two_k_v_response(const Scene& scene, const RunVar
   auto [motion, reused] =
       cached_value(options.store.get(), cached_motions, id, [&] { return simulate_two_k_v(scene, both, simulation); });
   const std::string name = variant.name.empty() ? "dynamics" : "dynamics with " + variant.name;
-  note_reuse(options, name, reused);
+  note_reuse(options, name, source_of(reused));
   save(motion, id, folder);
   log::info(name + ": " +
             (reused ? "unchanged, reused"

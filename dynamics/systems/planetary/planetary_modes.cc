@@ -139,7 +139,8 @@ void KindSorter::separate_multiples(std::vector<Mode>& modes, const Same& same) 
 
 }  // namespace
 
-std::string to_string(ModeKind kind, bool in_space) {
+std::string to_string(ModeKind kind, Motions motions) {
+  const bool in_space = motions == Motions::in_space;
   switch (kind) {
     case ModeKind::rotational:
       return in_space ? "rotational-axial" : "rotational";

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/modes/modal_energy.h"
+#include "dynamics/spatial/stage_bodies.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::dynamics {
@@ -17,7 +18,7 @@ enum class ModeKind {
   mixed           ///< none of them: planets not equally spaced, or a single one
 };
 /// In space "rotational-axial" and "translational-tilting".
-[[nodiscard]] std::string to_string(ModeKind kind, bool in_space = false);
+[[nodiscard]] std::string to_string(ModeKind kind, Motions motions = Motions::in_plane);
 
 /// The modes of a stage and the kind of each, `kinds[i]` that of `modes[i]`.
 struct PlanetaryModes : Modes {

@@ -151,16 +151,17 @@ RingCompliance composed(const RingCase& ring, int threads) {
   const Sector sector = make_sector(ring);
   result.discretise_seconds = watch.wall();
   watch = {};
-  const auto condensed = condense(sector.model, fem::SectorLoads{sector.ports, {}, {}}, false);
+  const auto condensed = condense(sector.model, fem::SectorLoads{sector.ports, {}, {}}, fem::SectorSupport::held);
   result.condense_seconds = watch.wall();
   watch = {};
   constexpr int neighbours = 6;  // as the program wants them
-  const auto near = compose_ring(condensed, ring.teeth, {neighbours, false}, false, threads);
+  const auto near = compose_ring(condensed, ring.teeth, {neighbours, false}, fem::SectorSupport::held, threads);
   result.compose_seconds = watch.wall();
   result.cpu_seconds = whole.cpu();
   result.unknowns = sector.model.stiffness.rows();
   const bool compared = !ring.level;
-  const auto all = compared ? compose_ring(condensed, ring.teeth, {ring.teeth / 2, true}, false, threads) : near;
+  const auto all =
+      compared ? compose_ring(condensed, ring.teeth, {ring.teeth / 2, true}, fem::SectorSupport::held, threads) : near;
   for (const int offset : compared_offsets(ring.teeth))
     if (offset <= all.max_offset()) result.blocks.push_back(every(all.block(offset), stride(sector)));
   return result;
