@@ -352,6 +352,7 @@ void explain_command(const Arguments& arguments) {
 }
 
 void export_command(const Arguments& arguments) {
+  refuse_altered_result(arguments.scene);
   const auto file = export_file(arguments.scene, arguments.format, arguments.out, arguments.ring);
   fmt::print("written {}\n", file.string());
 }

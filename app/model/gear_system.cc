@@ -17,7 +17,8 @@
 namespace annulus::app {
 
 PlanCost GearSystem::cost(int threads) const {
-  return plan_cost(meshes(), responses(), plan_studies(scene_), threads,
+  const auto planned = responses();
+  return plan_cost(meshes(), planned, plan_studies(*this, planned), threads,
                    [this](const MeshModel& mesh) { return coupled(mesh); });
 }
 
@@ -25,10 +26,12 @@ Plan GearSystem::plan(int threads) const {
   Plan plan;
   plan.title = scene_.title;
   plan.meshes = meshes();
-  plan.studies = plan_studies(scene_);
+  const auto planned = responses();
+  plan.studies = plan_studies(*this, planned);
   describe(plan);
   for (const auto& rotor : scene_.rotors) plan.dofs.push_back({rotor.name + " u", true, "turns on its shaft"});
-  plan.cost = cost(threads).at_pace(machine_pace());
+  const auto is_coupled = [this](const MeshModel& mesh) { return coupled(mesh); };
+  plan.cost = plan_cost(plan.meshes, planned, plan.studies, threads, is_coupled).at_pace(machine_pace());
   plan.warnings = scene_warnings();
   for (auto& warning : common_warnings(scene_, plan)) plan.warnings.push_back(std::move(warning));
   plan.warnings = by_severity(std::move(plan.warnings));

@@ -29,9 +29,9 @@ struct OwnTables {
 };
 
 /// Responses of all variants together, by how much of them is asked for.
-double response_seconds(const GearSystem& system, double PlannedResponse::*of) {
+double response_seconds(const std::vector<PlannedResponse>& responses, double PlannedResponse::*of) {
   double seconds = 0;
-  for (const auto& response : system.responses()) seconds += response.*of;
+  for (const auto& response : responses) seconds += response.*of;
   return seconds;
 }
 
@@ -44,19 +44,21 @@ std::string row_text(const Scene& scene, const SweepInput& s) {
 }  // namespace
 
 std::vector<StudyPlan> plan_studies(const Scene& scene) {
+  const auto system = make_system(scene);
+  return plan_studies(*system, system->responses());
+}
+
+std::vector<StudyPlan> plan_studies(const GearSystem& system, const std::vector<PlannedResponse>& responses) {
+  const auto& scene = system.scene();
   std::vector<StudyPlan> list;
   const auto sampling = sampling_of(scene);
   const bool any = !scene.sweeps.empty() || !scene.grids.empty() || scene.load_spectrum || !scene.transients.empty() ||
                    sampling || scene.sensitivity || scene.optimise;
   if (!any || !scene.dynamics) return list;
-  const auto system = make_system(scene);
-  const auto variants = static_cast<long>(system->variants().size());
-  auto without_search = scene;
-  without_search.dynamics->starts = 0;
-  const auto alone = make_system(without_search);
-  const double searched = response_seconds(*system, &PlannedResponse::study_s),
-               whole = response_seconds(*alone, &PlannedResponse::study_s),
-               sample = response_seconds(*alone, &PlannedResponse::sample_s);
+  const auto variants = static_cast<long>(system.variants().size());
+  const double whole = response_seconds(responses, &PlannedResponse::study_s),
+               searched = whole + response_seconds(responses, &PlannedResponse::study_search_s),
+               sample = response_seconds(responses, &PlannedResponse::sample_s);
   const auto add = [&](std::string name, std::string what, std::size_t cases, double each, const OwnTables& tables) {
     const auto n = static_cast<long>(cases);
     list.push_back(
@@ -85,7 +87,7 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
     add_cases("[load_spectrum]",
               fmt::format("{} classes of {}", scene.load_classes.size(), fmt::join(scene.load_spectrum->inputs, ", ")),
               load_cases(scene));
-  if (const auto rough = scene.transients.empty() ? std::nullopt : system->rough_lumped())
+  if (const auto rough = scene.transients.empty() ? std::nullopt : system.rough_lumped())
     for (std::size_t i = 0; i < scene.transients.size(); ++i) {
       // Rough: a stage of ten meshes, its second integration and those on tables changed by their errors. Steps follow
       // vibrations, not the speed: a second takes as long at any speed.
@@ -134,7 +136,7 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
                     points, static_cast<int>(std::min(points * tables.count, of_an_int)),
                     (asks_for_motion(o, system_kind(scene.stage.kind).model_figures()) ? whole : sample) /
                         static_cast<double>(variants) * static_cast<double>(points),
-                    tables.largest, static_cast<int>(std::min(searches, of_an_int))});
+                    tables.largest, static_cast<int>(std::min(searches * o.population, of_an_int))});
   }
   return list;
 }

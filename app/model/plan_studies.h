@@ -7,7 +7,12 @@
 
 namespace annulus::app {
 
+class GearSystem;
+
 /// What the studies of a scene will take, without computing anything elastic.
 [[nodiscard]] std::vector<StudyPlan> plan_studies(const Scene& scene);
+/// The same where the responses of the system are known.
+[[nodiscard]] std::vector<StudyPlan> plan_studies(const GearSystem& system,
+                                                  const std::vector<PlannedResponse>& responses);
 
 }  // namespace annulus::app

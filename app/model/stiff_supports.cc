@@ -16,7 +16,7 @@ double rough_stiffness(const Scene& scene, const MeshInput& mesh, double face_wi
   return mesh.mean.value_or(per_width * face_width * scene.material.youngs_modulus / steel);
 }
 
-Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> meshes) {
+Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> meshes, RoughCourse course) {
   Scene rough = scene;
   for (const auto& [mesh, face_width] : meshes) {
     const auto shape = (scene.*mesh).stiffness;
@@ -24,6 +24,11 @@ Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> 
     rough.*mesh = {};
     (rough.*mesh).stiffness = StiffnessShape::constant;
     (rough.*mesh).mean = rough_stiffness(scene, scene.*mesh, face_width);
+    if (course == RoughCourse::constant) continue;
+    // Half the range over the mean of solved tables: that of the ring paper's stage, and of helical pairs.
+    constexpr double of_spur = 0.13, of_helical = 0.02;
+    (rough.*mesh).stiffness = StiffnessShape::harmonic;
+    (rough.*mesh).ripple = scene.stage.helix_angle == 0 ? of_spur : of_helical;
   }
   return rough;
 }

@@ -13,9 +13,14 @@ struct RoughMesh {
   MeshInput Scene::*mesh;
   double face_width;  ///< m
 };
-/// The scene with constant rough stiffness of these meshes: periods, steps and degrees of freedom follow from it before
-/// anything is solved. Prescribed waves stay.
-[[nodiscard]] Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> meshes);
+/// What is assumed of a stiffness over the mesh cycle.
+enum class RoughCourse {
+  constant,  ///< periods, steps and degrees of freedom do not depend on it
+  rippling   ///< it excites vibrations as one and two pairs of teeth in turn do, of helical gears less
+};
+/// The scene with rough stiffness of these meshes, before anything is solved. Prescribed waves stay.
+[[nodiscard]] Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> meshes,
+                                         RoughCourse course = RoughCourse::constant);
 /// For a mesh whose stiffness is prescribed: a table that nobody reads.
 [[nodiscard]] MeshResult unread_table(const std::string& mesh);
 

@@ -62,6 +62,10 @@ struct CostLaw {
 };
 [[nodiscard]] const CostLaw& cost_law(Work work);
 
+/// What the libraries of finite elements and of gmsh take once they are loaded; the laws of works that need them
+/// contain it.
+inline constexpr double loaded_elements_MB = 165;
+
 /// What a step is predicted to cost.
 struct PredictedCost {
   double seconds = 0;  ///< wall

@@ -248,12 +248,22 @@ PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<Plann
            .size = coupling_size(model),
            .cause = fmt::format("it follows from `accuracy` and {} ring positions", model.positions)});
   }
-  for (const auto& response : responses)
+  const bool elements = std::any_of(meshes.begin(), meshes.end(), [](const MeshModel& m) { return m.has_elements(); });
+  for (const auto& response : responses) {
     add({.kind = CostKind::response,
          .label = response.label,
          .ring = response.ring,
          .size = response.size,
          .cause = "it follows from dynamics.mesh_cycles or, without it, from the period of the errors"});
+    // The laws of responses are those of runs without finite elements.
+    auto& step = cost.steps.back();
+    if (elements) step.predicted.peak_MB += loaded_elements_MB;
+    if (response.search_s > 0) {
+      step.further = step.predicted;
+      step.further->seconds += response.search_s / threads;
+      step.follow = "other motions are looked for";
+    }
+  }
   if (!cost.steps.empty())
     add({.kind = CostKind::files,
          .label = "pictures and files",

@@ -63,7 +63,10 @@ struct PlanCost {
 struct PlannedResponse {
   std::string label, ring;
   CostRun size;
-  double study_s = 0;   ///< processor time of the same response in a study
+  /// Processor time of the search for other motions where backlash may be within reach, and need not; else 0.
+  double search_s = 0;
+  double study_s = 0;         ///< processor time of the same response in a study, without a search
+  double study_search_s = 0;  ///< of the search for other motions, where a study has it
   double sample_s = 0;  ///< the same without its motion, as samples and searches ask for it (Answer::without_motion)
 };
 

@@ -9,6 +9,7 @@
 #include "app/results/program_identity.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_files.h"
+#include "core/errors.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/log.h"
@@ -60,6 +61,22 @@ std::optional<std::string> why_unfinished(const std::filesystem::path& out) {
     return fmt::format("{} is damaged", note_name);
   }
   return std::nullopt;
+}
+
+void refuse_altered_result(const std::filesystem::path& file) {
+  const auto whole = std::filesystem::absolute(file).lexically_normal();
+  constexpr int deepest = 8;  // folders below OUT
+  auto out = whole.parent_path();
+  for (int i = 0; i < deepest && !std::filesystem::exists(out / note_name); ++i) out = out.parent_path();
+  std::ifstream stream(out / note_name);
+  const auto note = Json::parse(stream, nullptr, false);
+  const auto name = whole.lexically_relative(out).generic_string();
+  if (!stream || !note.is_object() || !note.contains("files") || !note["files"].contains(name)) return;
+  if (note["files"][name] != stamp(whole))
+    throw InputError(
+        fmt::format("{}: has changed since the run that wrote it; run the scene again to restore it, or copy it to "
+                    "another folder to use it as a file of your own",
+                    file.string()));
 }
 
 std::optional<std::string> finished_run(const std::filesystem::path& out, const std::string& id) {

@@ -27,4 +27,8 @@ void keep_finished_run(const std::filesystem::path& out, const std::string& id, 
 /// files. Files may have been copied, with new times, or removed. Nothing when it does.
 [[nodiscard]] std::optional<std::string> why_unfinished(const std::filesystem::path& out);
 
+/// Throws InputError when the file is a result of a run and not as that run left it: its values are not those of the
+/// scene. A copy elsewhere is a file of the user's own.
+void refuse_altered_result(const std::filesystem::path& file);
+
 }  // namespace annulus::app

@@ -90,32 +90,56 @@ bool too_few_samples(int samples, int needed) {
   return samples < samples_for_contacts || (needed > 2 * samples && needed < too_fast * samples);
 }
 
-/// Mesh cycles of all starts from which other motions are looked for, with a looser tolerance than the rest.
-double searched_cycles(const LumpedSystem& system, double mesh_frequency, int period,
-                       const SimulationOptions& options) {
-  if (options.other_motions.starts == 0 || period > longest_searched_period) return 0;
+/// Mesh cycles of all starts from which other motions would be looked for, with a looser tolerance than the rest, and
+/// how far backlash is within reach.
+void plan_search(const LumpedSystem& system, double mesh_frequency, int period, const SimulationOptions& options,
+                 StiffnessCourse course, SteadyCourse& result) {
+  if (options.other_motions.starts == 0 || period > longest_searched_period) return;
   const auto meshes = mean_stiffnesses(system);
   const SteadyProblem problem{.mesh_frequency = mesh_frequency,
                               .period_in_cycles = period,
                               .force_scale = 1,
                               .stiffness = meshes.size() > 0 ? meshes.maxCoeff() : 1};
   try {
-    if (reach_of_backlash(system, problem) < within_reach) return 0;
+    result.reach = reach_of_backlash(system, problem);
   } catch (const InputError&) {  // the run says what is wrong
-    return 0;
+    return;
   }
-  const int starts = affordable_starts(system, problem, options.integrator, options.other_motions.starts);
-  return starts == 0 ? 0 : (starts + 1.0) * periods_of_a_start * period;
+  const int starts = affordable_starts(system, problem, options.integrator, options.other_motions.starts, course);
+  if (result.reach > 0 && starts > 0) result.searched_cycles = (starts + 1.0) * periods_of_a_start * period;
 }
 
 }  // namespace
 
+StiffnessCourse stiffness_course(const LumpedSystem& system) {
+  const auto& meshes = system.meshes();
+  const bool sudden = std::any_of(meshes.begin(), meshes.end(), [](const auto& mesh) {
+    return std::holds_alternative<TableStiffness>(mesh.excitation) ||
+           std::holds_alternative<RectangularStiffness>(mesh.excitation);
+  });
+  return sudden ? StiffnessCourse::sudden : StiffnessCourse::smooth;
+}
+
+double evaluation_seconds(const LumpedSystem& system) {
+  // Measured on stages of 1 to 20 planets (18 to 63 DOFs).
+  constexpr double per_dof = 1.6e-8, per_mesh = 2.4e-8, overhead = 8e-8;
+  return overhead + per_dof * system.dofs() + per_mesh * static_cast<double>(system.meshes().size());
+}
+
+double SteadyCourse::possible_search_s(double per_cycle) const {
+  if (reach < within_reach / 4) return 0;
+  if (reach < within_reach) return searched_cycles * per_cycle;
+  // Loss of contact doubles the steps.
+  constexpr double of_undecided = 2.0 * longest_start / periods_of_a_start;
+  return std::min(of_undecided * searched_cycles * per_cycle, longest_search_s);
+}
+
 double integration_seconds(const LumpedSystem& system, double mesh_frequency, double cycles,
                            const IntegratorOptions& options, StiffnessCourse course) {
-  // Measured on stages of 1 to 20 planets (18 to 63 DOFs): a right-hand side, and a step of Newton's method.
-  constexpr double per_dof = 1.6e-8, per_mesh = 2.4e-8, overhead = 8e-8, per_cube = 3e-10;
-  const auto n = static_cast<double>(system.dofs()), meshes = static_cast<double>(system.meshes().size());
-  const double evaluation = overhead + per_dof * n + per_mesh * meshes;
+  // A step of Newton's method, measured like an evaluation.
+  constexpr double per_cube = 3e-10;
+  const auto n = static_cast<double>(system.dofs());
+  const double evaluation = evaluation_seconds(system);
   const double newton = 2 * evaluation + per_cube * std::pow(2 * n, 3) + 1e-8 * n * n;
   // The frequency of a very small mass overflows, and the time is infinite.
   const UntrappedFloatingPoint untrapped;
@@ -158,11 +182,13 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   const int window = length.cycles;
   if (options.mesh_cycles) {
     const auto given = static_cast<double>(*options.mesh_cycles);
-    return {given + looser * window, given, 0, 0, options.samples_per_cycle};
+    return {.cycles = given + looser * window, .compared_cycles = given, .samples = options.samples_per_cycle};
   }
-  if (!length.whole) return {(2 + looser) * window, unsteady_comparison, 0, 0, options.samples_per_cycle};
+  if (!length.whole)
+    return {
+        .cycles = (2 + looser) * window, .compared_cycles = unsteady_comparison, .samples = options.samples_per_cycle};
   SteadyCourse result;
-  result.searched_cycles = searched_cycles(system, mesh_frequency, period, options);
+  plan_search(system, mesh_frequency, period, options, course, result);
   const int most = std::max(options.samples_per_cycle, most_samples_per_cycle(period));
   // Doubled until they follow tooth contacts and the highest natural frequency.
   int samples = std::min(options.samples_per_cycle, most);

@@ -55,10 +55,13 @@ std::vector<std::array<double, 3>> features(const Block& b, double scale) {
 
 class Follower {
  public:
-  Follower(const LumpedSystem& system, const SteadyProblem& problem, const IntegratorOptions& integrator)
+  /// `most_evaluations`: of the equations of motion, for one start.
+  Follower(const LumpedSystem& system, const SteadyProblem& problem, const IntegratorOptions& integrator,
+           double most_evaluations)
       : system_(system),
         problem_(problem),
         integrator_(integrator),
+        most_evaluations_(most_evaluations),
         meshes_(meshes_with_backlash(system)),
         leading_(leading(system, meshes_)) {}
 
@@ -69,9 +72,13 @@ class Follower {
     std::vector<Block> blocks;
     std::vector<double> changes;
     // Vibrations that have neither settled nor become irregular get as much time again.
-    for (int round = 0; round < rounds && !result.decided; ++round) {
+    const auto affordable = [&] {
+      return std::ssize(blocks) < least_blocks ||
+             static_cast<double>(run.statistics().rhs_evaluations) < most_evaluations_;
+    };
+    for (int round = 0; round < rounds && !result.decided && affordable(); ++round) {
       bool repeats = false;
-      for (int i = 0; i < most_blocks && !repeats; ++i) {
+      for (int i = 0; i < most_blocks && !repeats && affordable(); ++i) {
         blocks.push_back(advanced(run));
         const auto& now = blocks.back();
         if (blocks.size() > 1) changes.push_back(difference(now, blocks[blocks.size() - 2], 0));
@@ -115,7 +122,8 @@ class Follower {
   }
 
  private:
-  static constexpr int most_blocks = 24, rounds = 2;
+  static constexpr int least_blocks = 8, most_blocks = 24, rounds = 2;
+  static_assert(rounds * most_blocks * block == longest_start);
   static constexpr double still = 5e-3;  ///< of the force
 
   [[nodiscard]] double scale(const Block& b) const {
@@ -206,6 +214,7 @@ class Follower {
   const LumpedSystem& system_;
   const SteadyProblem& problem_;
   IntegratorOptions integrator_;
+  double most_evaluations_;
   std::vector<int> meshes_;
   std::vector<Eigen::Index> leading_;
 };
@@ -214,7 +223,8 @@ class Follower {
 
 StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& problem, const SteadyOutcome& present,
                              const IntegratorOptions& integrator, const MotionSearch& search) {
-  const Follower follower(system, problem, integrator);
+  const Follower follower(system, problem, integrator,
+                          longest_search_s / (search.starts + 1) / evaluation_seconds(system));
   const RandomStarts starts(system, problem, search.size);
   std::vector<Followed> followed(static_cast<std::size_t>(search.starts) + 1);
   for_each_task(followed.size(), search.threads, [&](std::size_t i) {
@@ -265,12 +275,11 @@ StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& pr
 }
 
 int affordable_starts(const LumpedSystem& system, const SteadyProblem& problem, const IntegratorOptions& integrator,
-                      int wanted) {
-  constexpr double most_seconds = 10;
+                      int wanted, StiffnessCourse course) {
   constexpr int fewest = 4;
-  const double of_start =
-      integration_seconds(system, problem.mesh_frequency, periods_of_a_start * problem.period_in_cycles, integrator);
-  const int starts = static_cast<int>(std::min<double>(wanted, most_seconds / of_start));
+  const double of_start = integration_seconds(system, problem.mesh_frequency,
+                                              periods_of_a_start * problem.period_in_cycles, integrator, course);
+  const int starts = static_cast<int>(std::min<double>(wanted, usual_search_s / of_start));
   return starts < std::min(fewest, wanted) ? 0 : starts;
 }
 

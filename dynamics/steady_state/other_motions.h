@@ -11,6 +11,7 @@ namespace annulus::dynamics {
 
 struct SteadyProblem;
 struct SteadyOutcome;
+enum class StiffnessCourse;
 
 /// How other motions of the same system are looked for: backlash and load together may allow several.
 struct MotionSearch {
@@ -57,12 +58,14 @@ struct StableMotions {
                                            const SteadyOutcome& present, const IntegratorOptions& integrator,
                                            const MotionSearch& search);
 
-/// As many of the wanted starts as some ten seconds of processor time allow by the cost law, which is the same on every
-/// machine; 0 where these are fewer than four.
+/// As many of the wanted starts as `usual_search_s` of processor time allow by the cost law, which is the same on every
+/// machine; 0 where these are fewer than four. A start that takes more than its share of `longest_search_s`, by counted
+/// evaluations, is undecided.
 [[nodiscard]] int affordable_starts(const LumpedSystem& system, const SteadyProblem& problem,
-                                    const IntegratorOptions& integrator, int wanted);
+                                    const IntegratorOptions& integrator, int wanted, StiffnessCourse course);
 /// Periods of the excitation until a start is decided, on average: from 48 to 576.
-inline constexpr int periods_of_a_start = 80;
+inline constexpr int periods_of_a_start = 80, longest_start = 576;
+inline constexpr double usual_search_s = 10, longest_search_s = 30;
 
 /// Longest period, mesh cycles, for which motions are looked for.
 inline constexpr int longest_searched_period = 200;

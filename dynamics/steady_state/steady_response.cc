@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "core/log.h"
 #include "dynamics/modes/modes.h"
+#include "dynamics/steady_state/integration_cost.h"
 #include "dynamics/steady_state/periodic_solution.h"
 #include "dynamics/steady_state/reach_of_backlash.h"
 #include "dynamics/steady_state/window_integration.h"
@@ -276,7 +277,7 @@ void look_for_other_motions(const LumpedSystem& system, const SteadyProblem& pro
     *integrator.absolute_tolerance *= factor;
   }
   auto search = options.other_motions;
-  search.starts = affordable_starts(system, problem, integrator, search.starts);
+  search.starts = affordable_starts(system, problem, integrator, search.starts, stiffness_course(system));
   if (search.starts == 0) {
     response.motions.not_tried = fmt::format("its period of {} mesh cycles takes too long to follow {} starts",
                                              problem.period_in_cycles, options.other_motions.starts);

@@ -121,6 +121,11 @@ Usual usual_contact(const std::string& name) {
   return name.starts_with("resolved") ? usual_body(name) : Usual{0.5, 0.1};
 }
 
+/// Of the libraries that are loaded.
+double usual_base_MB(const std::string& name) {
+  return name == "closed_form" || name.starts_with("response") ? 50.0 : 200.0;
+}
+
 app::CostLaw fitted_law(app::Work work, const std::vector<MeasuredRun>& runs) {
   const std::string name = app::cost_law(work).name;
   app::CostLaw law{app::cost_law(work).name, 0, 1, 0, 0, std::nan(""), 0};
@@ -134,10 +139,11 @@ app::CostLaw fitted_law(app::Work work, const std::vector<MeasuredRun>& runs) {
                run.size.contacts;
       });
   if (contact.size() > 0) law.contact = std::exp(contact[0]), law.contact_exponent = contact[1];
-  const auto memory = fitted(
-      runs, &MeasuredRun::peak_MB, {{std::log(200.0), 0.5}, {std::log(50.0)}}, [](const auto& x, const auto& run) {
-        return std::exp(x[0]) + std::exp(x[1]) * run.size.unknowns / 1e4 * (run.threads > 1 ? 1.65 : 1);
-      });
+  const auto memory =
+      fitted(runs, &MeasuredRun::peak_MB, {{std::log(usual_base_MB(name)), 0.5}, {std::log(50.0)}},
+             [](const auto& x, const auto& run) {
+               return std::exp(x[0]) + std::exp(x[1]) * run.size.unknowns / 1e4 * (run.threads > 1 ? 1.65 : 1);
+             });
   if (memory.size() > 0) law.base_MB = std::exp(memory[0]), law.per_unknown_MB = std::exp(memory[1]);
   return law;
 }

@@ -32,9 +32,12 @@ class FaultRuns {
   json summary(const std::string& out) const { return json::parse(read_file(folder_.path() / out / "summary.json")); }
   /// The one ring in it.
   json ring(const std::string& out) const { return summary(out).at("rings").front(); }
+  void set(const std::string& key, const std::string& value) {
+    const auto begin = scene_.find(key + " = ");
+    scene_.replace(begin, scene_.find('\n', begin) - begin, key + " = " + value);
+  }
   json ring_at(const std::string& accuracy) {
-    const auto begin = scene_.find("accuracy = ");
-    scene_.replace(begin, scene_.find('\n', begin) - begin, "accuracy = " + accuracy);
+    set("accuracy", accuracy);
     const auto outcome = run("out" + accuracy);
     BOOST_TEST(outcome.status == 0, outcome.err);
     return ring("out" + accuracy);
@@ -102,6 +105,39 @@ BOOST_AUTO_TEST_CASE(lost_energy_tightens_the_tolerance) {
   BOOST_TEST(outcome.err.find("repeated with a relative tolerance") != std::string::npos, outcome.err);
   const double balance = runs.ring("out").at("dynamics").at("energy_balance_relative");
   BOOST_TEST(balance <= 0.05);
+}
+
+// Beside irregular motions with peak factors of 5 to 6 a periodic one of 1.7 to 2.1 was reported alone.
+BOOST_AUTO_TEST_CASE(a_stage_leads_with_the_worst_of_its_motions) {
+  FaultRuns runs("two_branches_stage");
+  runs.set("sun_speed_rpm", "24000");
+  BOOST_REQUIRE(runs.run("irregular").status == 0);
+  const auto ring = runs.ring("irregular");
+  const auto& found = ring.at("motions").at("found");
+  BOOST_REQUIRE(!found.empty());
+  BOOST_TEST(found.at(0).at("irregular").get<bool>());
+  BOOST_TEST(found.at(0).at("results_are_of_it").get<bool>());
+  BOOST_TEST(ring.at("peak_factor").at("sun_planet").at(0).get<double>() > 4.5);
+  BOOST_TEST(runs.summary("irregular").at("warnings").dump().find("not_periodic") != std::string::npos);
+  // Where several exist, a rare irregular one is named first.
+  runs.set("sun_speed_rpm", "22000");
+  BOOST_REQUIRE(runs.run("several").status == 0);
+  const auto several = runs.ring("several").at("motions").at("found");
+  BOOST_REQUIRE(several.size() > 1);
+  BOOST_TEST(several.at(0).at("irregular").get<bool>());
+  BOOST_TEST(runs.summary("several").at("warnings").dump().find("several_motions") != std::string::npos);
+}
+
+// Two stable motions of a spur pair at its resonance: 1.13 was reported beside 4.95.
+BOOST_AUTO_TEST_CASE(a_pair_leads_with_the_worse_of_its_motions) {
+  FaultRuns runs("two_branches");
+  runs.set("pinion_speed_rpm", "7000");
+  BOOST_REQUIRE(runs.run("out").status == 0);
+  const auto summary = runs.summary("out");
+  const auto& found = summary.at("response").at("motions").at("found");
+  BOOST_REQUIRE(found.size() > 1);
+  BOOST_TEST(found.at(0).at("results_are_of_it").get<bool>());
+  BOOST_TEST(found.at(0).at("mesh_force_max_N").get<double>() > 2 * found.at(1).at("mesh_force_max_N").get<double>());
 }
 
 // Back flanks of the fourth planet carry all the time: its factor was -0.72, and a warning nowhere.

@@ -30,13 +30,13 @@ using fem::Fidelity;
 constexpr double accuracies[] = {0.1, 0.03, 0.01, 0.003};
 
 /// The fixed settings among which the cheapest is looked for, and the truth.
-std::vector<MeshSetting> settings(bool needs_solid) {
+std::vector<MeshSetting> settings(app::AlongFace face) {
   std::vector<MeshSetting> list;
   const auto add = [&](Fidelity fidelity, int degree, int level, int phases, std::vector<int> loads) {
     for (const int count : loads)
       list.push_back({.fidelity = fidelity, .degree = degree, .level = level, .phases = phases, .loads = count});
   };
-  if (needs_solid) {
+  if (face == app::AlongFace::varying) {
     for (const int phases : {32, 64}) {
       add(Fidelity::solid, 1, 1, phases, {1, 3});
       add(Fidelity::solid, 2, 1, phases, {1, 3});
@@ -104,7 +104,7 @@ double run_time(const app::Scene& scene, const std::filesystem::path& folder, co
     options.remodel = [&](const app::MeshModel& planned) {
       const bool solid =
           planned.ring.empty() ? !solid_reason(scene).empty() : !solid_reason(scene, scene.rings.front()).empty();
-      return setting->applied(planned, solid);
+      return setting->applied(planned, solid ? app::AlongFace::varying : app::AlongFace::uniform);
     };
   std::filesystem::remove_all(folder);
   const auto done = app::measured([&] {
@@ -167,8 +167,8 @@ int main(int argc, char** argv) {
     ::setenv("ANNULUS_CACHE", "", 1);  // predictions are not to depend on earlier runs, nor to learn from these
     app::TradeLists lists;
     lists.accuracies.assign(std::begin(benchmark::accuracies), std::end(benchmark::accuracies));
-    lists.mesh = [errors_only](const app::MeshModel&, bool needs_solid) {
-      auto list = benchmark::settings(needs_solid);
+    lists.mesh = [errors_only](const app::MeshModel&, app::AlongFace face) {
+      auto list = benchmark::settings(face);
       if (errors_only) list.erase(list.begin(), list.end() - 1);
       return list;
     };

@@ -63,8 +63,8 @@ BOOST_AUTO_TEST_CASE(the_cost_study_is_that_of_every_kind,
   const test::TemporaryFolder folder("skeleton_tradeoff");
   app::TradeLists lists;
   lists.accuracies = {0.1};
-  lists.mesh = [](const app::MeshModel&, bool needs_solid) {
-    BOOST_TEST(!needs_solid);
+  lists.mesh = [](const app::MeshModel&, app::AlongFace face) {
+    BOOST_TEST((face == app::AlongFace::uniform));
     return std::vector<app::MeshSetting>{
         {.fidelity = fem::Fidelity::plane, .degree = 1, .level = 1, .phases = 8, .loads = 1},
         {.fidelity = fem::Fidelity::plane, .degree = 2, .level = 1, .phases = 8, .loads = 1, .finest = true}};

@@ -85,9 +85,9 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
 
 }  // namespace
 
-dynamics::HelicalPair rough_pair(const Scene& scene) {
+dynamics::HelicalPair rough_pair(const Scene& scene, RoughCourse course) {
   const Scene rough =
-      with_rough_stiffness(scene, {{&Scene::pinion_wheel, narrower_face(scene, scene.pinion, scene.wheel)}});
+      with_rough_stiffness(scene, {{&Scene::pinion_wheel, narrower_face(scene, scene.pinion, scene.wheel)}}, course);
   const auto mesh = excitation_of(rough.pinion_wheel, unread_table(pinion_wheel), 0, dynamics::LoadDependence::nominal);
   return make_pair(scene, make_pair_geometry(scene), mesh, 0);
 }
@@ -108,17 +108,21 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene) {
   const auto options = pair_simulation(scene);
   const bool computed = scene.pinion_wheel.stiffness == StiffnessShape::computed;
   const auto stiffness = computed ? dynamics::StiffnessCourse::sudden : dynamics::StiffnessCourse::smooth;
-  const auto course = dynamics::steady_course(system, pair.mesh_frequency(), period, options, stiffness);
+  auto without_search = options;
+  without_search.other_motions.starts = 0;
+  const auto course = dynamics::steady_course(system, pair.mesh_frequency(), period, without_search, stiffness);
   const double per_cycle =
       dynamics::integration_seconds(system, pair.mesh_frequency(), 1, options.integrator, stiffness);
+  const auto search = dynamics::steady_course(assemble(rough_pair(scene, RoughCourse::rippling)), pair.mesh_frequency(),
+                                              period, options, stiffness);
+  const double searched_cycles = search.expected_search();
   const double runs = comparisons(computed ? 1 : 0);
   const auto& asked = scene.dynamics->mesh_cycles;
   const bool integrated = course.compared_cycles > 0;
-  const double cycles =
-      course.cycles + runs * course.compared_cycles + (asked ? shares * *asked : course.searched_cycles);
+  const double cycles = course.cycles + runs * course.compared_cycles + (asked ? shares * *asked : searched_cycles);
   const double balances = course.balance_s * ((integrated ? 0 : 1 + runs) + (asked ? 0 : shares));
   constexpr double of_study = 1e-3;  // its model, and loss of contact at some points
-  const double study_s = of_study + course.balance_s + (asked ? *asked : course.searched_cycles) * per_cycle;
+  const double study_s = of_study + course.balance_s + (asked ? *asked * per_cycle : 0);
   return {{.label = "dynamics of the pair",
            .ring = "",
            .size = {.work = Work::response_pair,
@@ -126,7 +130,9 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene) {
                     .motion_s = balances + cycles * per_cycle + draws * seconds_of_draw,
                     .held_MB = draws * MB_of_draw,
                     .tasks = static_cast<int>(1 + shares)},
+           .search_s = asked ? 0 : std::max(0.0, search.possible_search_s(per_cycle) - searched_cycles * per_cycle),
            .study_s = study_s,
+           .study_search_s = asked ? 0 : searched_cycles * per_cycle,
            .sample_s = study_s}};
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model/stiff_supports.h"
 #include "app/model/system_run.h"
 #include "app/report/section.h"
 #include "app/systems/helical_pair/pair_errors.h"
@@ -84,7 +85,7 @@ struct PairRunResult : RunView {
 [[nodiscard]] PairRunResult run_pair(const Scene& scene, const RunOptions& options);
 
 /// The pair before its stiffness is computed (pair_plan.cc). Needs [dynamics].
-[[nodiscard]] dynamics::HelicalPair rough_pair(const Scene& scene);
+[[nodiscard]] dynamics::HelicalPair rough_pair(const Scene& scene, RoughCourse course = RoughCourse::constant);
 /// What a plan reports of a pair (pair_plan.cc).
 void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan);
 /// The responses of a run, as one step: the scene's own, and those that divide the transmission error by its causes.

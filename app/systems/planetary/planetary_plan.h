@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "app/model/stiff_supports.h"
 #include "app/plan/gear_geometry.h"
 #include "app/plan/plan.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
@@ -15,7 +16,8 @@ void describe_planetary(const Scene& scene, const GearGeometry& geometry, Plan& 
 [[nodiscard]] std::vector<Decision> motion_decisions(const Scene& scene, const std::vector<MeshModel>& meshes);
 
 /// The stage of one ring before its stiffnesses are computed (planetary_responses.cc). The scene has [dynamics].
-[[nodiscard]] dynamics::PlanetaryStage rough_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring);
+[[nodiscard]] dynamics::PlanetaryStage rough_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                                   RoughCourse course = RoughCourse::constant);
 /// The responses of a planetary scene, one per ring (planetary_responses.cc); empty without [dynamics].
 [[nodiscard]] std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearGeometry& geometry,
                                                                const std::vector<MeshModel>& meshes);

@@ -32,9 +32,10 @@ Work work_of_response(const Scene& scene, bool computed, const MeshModel& ring) 
   return integrated ? Work::response : Work::response_balanced;
 }
 
-/// Of one ring, from its stage with rough stiffness. `tables`: computed meshes.
-PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetaryStage& stage, int tables,
-                                 const MeshModel& ring, const std::string& name) {
+/// Of one ring, from its stage with rough stiffness, constant and rippling. `tables`: computed meshes.
+PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetaryStage& stage,
+                                 const dynamics::PlanetaryStage& rippling, int tables, const MeshModel& ring,
+                                 const std::string& name) {
   const auto& asked = scene.dynamics->mesh_cycles;
   const auto options = simulation_options(scene, stage);
   // Mesh cycles after which the response repeats, at most as many as are integrated.
@@ -44,7 +45,12 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
   const auto system = assemble(stage);
   const bool sudden = tables > 0 || std::isfinite(system.next_jump(0));
   const auto stiffness = sudden ? dynamics::StiffnessCourse::sudden : dynamics::StiffnessCourse::smooth;
-  const auto course = dynamics::steady_course(system, stage.mesh_frequency(), period, options, stiffness);
+  auto without_search = options;
+  without_search.other_motions.starts = 0;
+  const auto course = dynamics::steady_course(system, stage.mesh_frequency(), period, without_search, stiffness);
+  // Whether other motions are looked for depends on what excites the stage.
+  const auto search = dynamics::steady_course(assemble(rippling), stage.mesh_frequency(), period, options, stiffness);
+  const double searched_cycles = search.expected_search();
   const double per_cycle =
       dynamics::integration_seconds(system, stage.mesh_frequency(), 1, options.integrator, stiffness);
   // And on the unchanged tables in the same way; with and without a coupling that is left out as negligible.
@@ -61,25 +67,30 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
   const double surface_s = scene.dynamics->load_dependence == dynamics::LoadDependence::table
                                ? per_position * ring.positions * phases * (runs + of_jumps)
                                : 0;
-  const double once = (asked ? *asked : course.searched_cycles) * per_cycle;
+  const double once = asked ? *asked * per_cycle : 0;
   // A window is stored and evaluated, however many cycles lead to it.
-  return {.label = fmt::format("dynamics of '{}'", name),
-          .ring = name,
-          .size = {.work = work_of_response(scene, tables > 0, ring),
-                   .unknowns = static_cast<double>(scene.stage.planets) * std::min(period, asked.value_or(period)),
-                   .motion_s =
-                       balances + (cycles + course.searched_cycles) * per_cycle + surface_s + tolerance_seconds(scene)},
-          // Studies integrate in time only where a number of cycles is asked for.
-          .study_s = course.balance_s + once,
-          .sample_s = course.balance_s + once};
+  return {
+      .label = fmt::format("dynamics of '{}'", name),
+      .ring = name,
+      .size = {.work = work_of_response(scene, tables > 0, ring),
+               .unknowns = static_cast<double>(scene.stage.planets) * std::min(period, asked.value_or(period)),
+               .motion_s = balances + (cycles + searched_cycles) * per_cycle + surface_s + tolerance_seconds(scene)},
+      .search_s = asked ? 0 : std::max(0.0, search.possible_search_s(per_cycle) - searched_cycles * per_cycle),
+      // Studies integrate in time only where a number of cycles is asked for.
+      .study_s = course.balance_s + once,
+      .study_search_s = asked ? 0 : searched_cycles * per_cycle,
+      .sample_s = course.balance_s + once};
 }
 
 }  // namespace
 
-dynamics::PlanetaryStage rough_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
+dynamics::PlanetaryStage rough_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                     RoughCourse course) {
   const Scene rough =
-      with_rough_stiffness(scene, {{&Scene::sun_planet, narrower_face(scene, scene.sun, scene.planet)},
-                                   {&Scene::ring_planet, narrower_face(scene, scene.planet, scene.rings.front())}});
+      with_rough_stiffness(scene,
+                           {{&Scene::sun_planet, narrower_face(scene, scene.sun, scene.planet)},
+                            {&Scene::ring_planet, narrower_face(scene, scene.planet, scene.rings.front())}},
+                           course);
   const auto none = unread_table(sun_planet);
   return make_stage(rough, geometry, ring, none, none);
 }
@@ -89,9 +100,9 @@ std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearG
   if (!scene.dynamics) return {};
   std::vector<PlannedResponse> responses;
   for (std::size_t i = 0; i < scene.rings.size(); ++i)
-    responses.push_back(planned_response(scene, rough_stage(scene, geometry, i),
-                                         meshes.front().computed() + meshes.at(i + 1).computed(), meshes.at(i + 1),
-                                         scene.rings[i].name));
+    responses.push_back(planned_response(
+        scene, rough_stage(scene, geometry, i), rough_stage(scene, geometry, i, RoughCourse::rippling),
+        meshes.front().computed() + meshes.at(i + 1).computed(), meshes.at(i + 1), scene.rings[i].name));
   return responses;
 }
 

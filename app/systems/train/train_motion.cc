@@ -213,7 +213,7 @@ std::vector<PlannedResponse> train_responses(const Scene& scene, const std::vect
       dynamics::integration_seconds(system, problem.mesh_frequency, 1, options.integrator, stiffness);
   // And on the unchanged tables in the same way.
   const double runs = comparisons(tables) + (tables > 0 ? 1 : 0);
-  const double cycles = course.cycles + runs * course.compared_cycles + course.searched_cycles;
+  const double cycles = course.cycles + runs * course.compared_cycles + course.expected_search();
   const double balances = course.balance_s * (1 + (course.compared_cycles > 0 ? 0 : runs));
   const double study_s = course.balance_s + scene.dynamics->mesh_cycles.value_or(0) * per_cycle;
   // Motions and forces of the window and of those it is compared with, and the time series as text.
