@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(every_kind_and_fidelity_has_a_budget) {
     const auto scene = app::parse_scene(text, "s.toml");
     const auto cost = app::make_system(scene)->cost(2);
     BOOST_TEST(cost.seconds() > 0);
-    BOOST_TEST(cost.peak_MB() > 100);
+    BOOST_TEST(cost.peak_MB() > 30);
     const auto choice = fitted(scene, 1e6);
     BOOST_TEST(choice.cost.seconds() > 0);
     BOOST_TEST(choice.sentence.find("budget") == 0U);
