@@ -1,5 +1,8 @@
 include(GNUInstallDirs)
 
+# Cached results belong to the build that computed them.
+add_link_options(LINKER:--build-id)
+
 # A shared library per layer, of all sources in its folder and below, but for main.cc and for folders with libraries of
 # their own; the application, which nothing else links, is a static one:
 #   annulus_add_layer(core PUBLIC ... PRIVATE ... PRECOMPILE <Eigen/Core>)

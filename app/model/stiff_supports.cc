@@ -25,8 +25,9 @@ Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> 
     (rough.*mesh).stiffness = StiffnessShape::constant;
     (rough.*mesh).mean = rough_stiffness(scene, scene.*mesh, face_width);
     if (course == RoughCourse::constant) continue;
-    // Half the range over the mean of solved tables: that of the ring paper's stage, and of helical pairs.
-    constexpr double of_spur = 0.13, of_helical = 0.02;
+    // Half the range over the mean of solved tables: 0.17 to 0.24 of spur sun meshes, 0.01 to 0.24 of spur ring meshes
+    // (data/scenes/ring_types.toml, arc_tooth_2kv.toml), 0.01 and 0.02 of a helical stage.
+    constexpr double of_spur = 0.2, of_helical = 0.02;
     (rough.*mesh).stiffness = StiffnessShape::harmonic;
     (rough.*mesh).ripple = scene.stage.helix_angle == 0 ? of_spur : of_helical;
   }

@@ -15,7 +15,7 @@ struct RoughMesh {
 };
 /// What is assumed of a stiffness over the mesh cycle.
 enum class RoughCourse {
-  constant,  ///< periods, steps and degrees of freedom do not depend on it
+  constant,  ///< periods, steps and DOFs do not depend on it
   rippling   ///< it excites vibrations as one and two pairs of teeth in turn do, of helical gears less
 };
 /// The scene with rough stiffness of these meshes, before anything is solved. Prescribed waves stay.

@@ -29,12 +29,12 @@ constexpr CostLaw laws[] = {
     {"coupling_pins", 0.131, 0.432, 0, 0, not_known, 0},
     {"coupling_solid", 0.3249, 1.27, 0, 0, 199.2, 97.96},
     {"response", 0, 1, 0, 0, 60.3, 27.85},
-    {"response_elastic", 0, 1, 0, 0, 112.1, 108},
-    {"response_pins", 0, 1, 0, 0, 50.42, 537.7},
+    {"response_elastic", 0, 1, 0, 0, 75.01, 74.5},
+    {"response_pins", 0, 1, 0, 0, 50.5, 383.1},
     {"response_prescribed", 0, 1, 0, 0, 47.98, 39.53},
     {"response_balanced", 0, 1, 0, 0, 61.4, 227.6},
     {"response_pair", 0, 1, 0, 0, 45.92, 48.55},
-    {"response_two_k_v", 0, 1, 0, 0, 116.6, 52.38},
+    {"response_two_k_v", 0, 1, 0, 0, 63.44, 51.19},
     {"response_two_k_v_prescribed", 0, 1, 0, 0, 46.16, 49.48},
 };
 

@@ -250,14 +250,14 @@ PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<Plann
   }
   const bool elements = std::any_of(meshes.begin(), meshes.end(), [](const MeshModel& m) { return m.has_elements(); });
   for (const auto& response : responses) {
+    auto size = response.size;
+    if (elements) size.held_MB += loaded_elements_MB;
     add({.kind = CostKind::response,
          .label = response.label,
          .ring = response.ring,
-         .size = response.size,
+         .size = size,
          .cause = "it follows from dynamics.mesh_cycles or, without it, from the period of the errors"});
-    // The laws of responses are those of runs without finite elements.
     auto& step = cost.steps.back();
-    if (elements) step.predicted.peak_MB += loaded_elements_MB;
     if (response.search_s > 0) {
       step.further = step.predicted;
       step.further->seconds += response.search_s / threads;

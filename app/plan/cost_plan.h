@@ -63,7 +63,7 @@ struct PlanCost {
 struct PlannedResponse {
   std::string label, ring;
   CostRun size;
-  /// Processor time of the search for other motions where backlash may be within reach, and need not; else 0.
+  /// Processor time that the search for other motions may take beyond that of `size`, at worst.
   double search_s = 0;
   double study_s = 0;         ///< processor time of the same response in a study, without a search
   double study_search_s = 0;  ///< of the search for other motions, where a study has it

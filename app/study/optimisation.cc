@@ -180,12 +180,20 @@ struct FoundSearch {
   Csv answers;  ///< of the model
 };
 
+std::size_t number_of_searches(const OptimiseInput& settings) {
+  return settings.optimisers.size() * static_cast<std::size_t>(settings.repeats);
+}
+
+/// The place in a list at which a worker begins: those of all workers are spread over it.
+std::size_t first_place(std::size_t size, const Worker& worker) {
+  return size * static_cast<std::size_t>(worker.number - 1) / static_cast<std::size_t>(worker.count);
+}
+
 /// Calls `task` for a list of points on some threads. Of several workers each begins at its own place of the list: none
 /// waits for another, and they meet only where one of them is slower.
 void for_each_point(const std::vector<std::vector<double>>& points, const Worker& worker, int threads,
                     const std::function<void(const std::vector<double>&)>& task) {
-  const auto first =
-      points.size() * static_cast<std::size_t>(worker.number - 1) / static_cast<std::size_t>(worker.count);
+  const auto first = first_place(points.size(), worker);
   for_each_task(points.size(), threads, [&](std::size_t i) { task(points[(first + i) % points.size()]); });
 }
 
@@ -280,18 +288,12 @@ const std::vector<std::string>& optimiser_names() {
   return names;
 }
 
-std::size_t searches(const OptimiseInput& settings) {
-  return settings.optimisers.size() * static_cast<std::size_t>(settings.repeats);
-}
-
 void compute_searches(const StudySubject& subject, const std::vector<std::size_t>& numbers) {
   const auto& settings = *subject.scene().optimise;
   const DesignObjective objective(subject);
   TaskProgress progress("optimisation", numbers.size() * static_cast<std::size_t>(settings.generations + 1));
   // All workers take part in every search, and each begins with another one.
-  const auto& worker = subject.options().worker;
-  const auto first =
-      numbers.size() * static_cast<std::size_t>(worker.number - 1) / static_cast<std::size_t>(worker.count);
+  const auto first = first_place(numbers.size(), subject.options().worker);
   for_each_search(subject, numbers.size(), [&](std::size_t i, int threads) {
     const auto number = numbers[(first + i) % numbers.size()];
     (void)numbered_search(subject, objective, number, threads, progress);
@@ -307,7 +309,7 @@ OptimiseResults run_optimise(const StudySubject& subject) {
       .settings = settings, .variables = scene.variables, .units = {}, .variant = objective.variant()};
   for (const auto& v : scene.variables) result.units.push_back(unit_of_input(scene, v.input));
 
-  const std::size_t tasks = searches(settings);
+  const std::size_t tasks = number_of_searches(settings);
   result.runs.resize(tasks);
   std::vector<Csv> answers(tasks);
   TaskProgress progress("optimisation", tasks * static_cast<std::size_t>(settings.generations + 1));

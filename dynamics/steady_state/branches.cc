@@ -62,15 +62,11 @@ class Tracer {
     names_ = first.system.names();
     cycles_ = first.problem.period_in_cycles;
     if (first.system.has_moving_vectors())
-      throw InputError(fmt::format(
-          "branches are not found where mesh vectors move with the mesh (elastic modes of the ring), as of this "
-          "system of {} degrees of freedom and {} meshes; leave the elastic modes out",
-          first.system.dofs(), meshes_));
+      throw InputError(
+          "branches are not found where mesh vectors move with the mesh (elastic modes of the ring); leave the elastic "
+          "modes out");
     if (first.system.has_friction())
-      throw InputError(fmt::format(
-          "branches are not found with friction on the flanks, as on those of this system of {} meshes; leave "
-          "the friction out",
-          meshes_));
+      throw InputError("branches are not found with friction on the flanks; leave the friction out");
     stiffness_ = mean_stiffnesses(first.system);
     range_ = options.to - options.from;
     for (const auto* lumped : {&first.problem, &last.problem})

@@ -39,10 +39,12 @@ class ContactBody {
   /// the mesh gives it: [profile station * slices + slice].
   [[nodiscard]] Eigen::VectorXd displacement(int at, const FlankPatch& patch, int tooth,
                                              const Eigen::VectorXd& forces) const;
-  /// A lower bound, slice by slice, of the displacement() anywhere along the height of the flank, m: of a condensed
-  /// body at a fraction of its price.
+  /// A lower bound, slice by slice, of the displacement() over the height of the flank, m. A condensed body has it at a
+  /// fraction of the cost.
   [[nodiscard]] virtual Eigen::VectorXd least_displacement(int at, const FlankPatch& patch, int tooth,
                                                            const Eigen::VectorXd& forces) const;
+  /// The least value of every slice over the height of a flank: [slice].
+  [[nodiscard]] Eigen::VectorXd least_by_slice(const Eigen::VectorXd& displacement) const;
   /// Means over the slices of values at the flank ports: [profile station * slices + slice].
   [[nodiscard]] Eigen::VectorXd slice_means(const Eigen::VectorXd& at_ports) const;
   /// Displacement into the material along the flank of a tooth by unit motions of the body (x, y, rotation about the
@@ -67,8 +69,6 @@ class ContactBody {
   [[nodiscard]] double base_radius() const { return base_radius_; }
   /// Loads of the elements of a patch, N: [profile station * slices + slice].
   [[nodiscard]] Eigen::VectorXd loads_of(const FlankPatch& patch, const Eigen::VectorXd& forces) const;
-  /// The least value of every slice over the height: [slice].
-  [[nodiscard]] Eigen::VectorXd least_by_slice(const Eigen::VectorXd& displacement) const;
 
   struct Block {
     const Eigen::MatrixXd& compliance;  ///< compressed

@@ -53,16 +53,14 @@ std::shared_ptr<const ToothPairs> ContactSystem::prepare(double phase, double lo
       const int other = wheel_tooth(face_.flanks(), o.index, 0);
       const Eigen::MatrixXd block = bodies_.planet.compliance(p.planet, p.index, o.planet, o.index) +
                                     bodies_.wheel.compliance(p.wheel, tooth, o.wheel, other);
-      if (i != j && bodies_.planet.same_both_ways() && bodies_.wheel.same_both_ways()) {
-        compliance.block(start[i], start[j], size, block.cols()) = block;
-        compliance.block(start[j], start[i], block.cols(), size) = block.transpose();
-        continue;
-      }
-      // Both directions are formed on their own: what they differ by measures reciprocity (Betti). Of a pair with
-      // itself they are the same.
-      const Eigen::MatrixXd opposite = i == j ? block
-                                              : bodies_.planet.compliance(o.planet, o.index, p.planet, p.index) +
-                                                    bodies_.wheel.compliance(o.wheel, other, p.wheel, tooth);
+      // Where a body has a compliance for either direction, both are formed: what they differ by measures reciprocity
+      // (Betti). Of a pair with itself they are the same.
+      Eigen::MatrixXd opposite = block;
+      if (i != j && bodies_.planet.same_both_ways() && bodies_.wheel.same_both_ways())
+        opposite = block.transpose();
+      else if (i != j)
+        opposite = bodies_.planet.compliance(o.planet, o.index, p.planet, p.index) +
+                   bodies_.wheel.compliance(o.wheel, other, p.wheel, tooth);
       result->asymmetry = std::max(result->asymmetry,
                                    (block - opposite.transpose()).cwiseAbs().maxCoeff() / block.cwiseAbs().maxCoeff());
       const Eigen::MatrixXd mean = (block + opposite.transpose()) / 2;

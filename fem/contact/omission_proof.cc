@@ -27,7 +27,9 @@ class FlankDeflections {
 
   /// Largest approach of the two flanks along their height, m, in every slice.
   [[nodiscard]] Eigen::VectorXd approach(int pair) const {
-    return (approach_ - least(planet(pair)).array() - least(wheel(pair)).array()).matrix();
+    return (approach_ - bodies_.planet.least_by_slice(planet(pair)).array() -
+            bodies_.wheel.least_by_slice(wheel(pair)).array())
+        .matrix();
   }
   /// An upper bound of it, which nearly always suffices.
   [[nodiscard]] Eigen::VectorXd most_approach(int pair) const {
@@ -37,9 +39,10 @@ class FlankDeflections {
       least_sum += bodies_.planet.least_displacement(pair, loaded->planet, loaded->index, force) +
                    bodies_.wheel.least_displacement(here, loaded->wheel,
                                                     wheel_tooth(bodies_.face.flanks(), loaded->index, 0), force);
-    if (planet_.row != nullptr) least_sum += least(floating(planet_, bodies_.planet, pair));
+    if (planet_.row != nullptr) least_sum += bodies_.planet.least_by_slice(floating(planet_, bodies_.planet, pair));
     if (wheel_.row != nullptr)
-      least_sum += least(floating(wheel_, bodies_.wheel, wheel_tooth(bodies_.face.flanks(), pair, cycle_)));
+      least_sum += bodies_.wheel.least_by_slice(
+          floating(wheel_, bodies_.wheel, wheel_tooth(bodies_.face.flanks(), pair, cycle_)));
     return approach_ - least_sum.array();
   }
 
@@ -87,12 +90,6 @@ class FlankDeflections {
       sum[i] += middle * (plane(i, 0) * floating.motion[4] - plane(i, 1) * floating.motion[3]);
     }
     return sum;
-  }
-
-  /// Least over the height of a flank, slice by slice.
-  [[nodiscard]] Eigen::VectorXd least(const Eigen::VectorXd& displacement) const {
-    const Eigen::Index slices = bodies_.planet.slices();
-    return displacement.reshaped(slices, displacement.size() / slices).rowwise().minCoeff();
   }
 
   struct Loaded {

@@ -77,8 +77,8 @@ std::vector<StressRecovery::Observed> StressRecovery::by_sector(const std::vecto
   const auto& c = body_.compliance;
   const int ports = body_.flank_ports();
   std::vector<Observed> result;
-  std::vector<Eigen::Index> first_tooth,
-      first_interface;  // by case, among all loaded teeth and all looked-at interfaces
+  // Of every member of the list, among all loaded teeth and all looked-at interfaces.
+  std::vector<Eigen::Index> first_tooth, first_interface;
   Eigen::Index teeth = 0, interfaces = 0;
   for (const auto& forces : list) {
     result.push_back(looked_at(forces));

@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(a_search_is_resumed_from_a_store) {
   BOOST_TEST(resumed.value == search(Optimiser::cma_es, sphere, 3, 30).value);
 }
 
-// Whoever computes several points at once is told all points of a generation, and no other one.
+// All points of a generation are named before any of them is asked for, and no other one.
 BOOST_AUTO_TEST_CASE(points_are_named_before_they_are_asked_for) {
   const std::vector<OptimiseVariable> mixed{{"a", -2, 2}, {"b", -3, 3, false, true}};
   const auto uneven = [](const std::vector<double>& x) {
@@ -221,7 +221,7 @@ BOOST_AUTO_TEST_CASE(points_are_named_before_they_are_asked_for) {
     const auto plain = optimise(mixed, uneven, options);
     std::vector<std::vector<double>> named, asked;
     std::size_t batches = 0;
-    const auto told = optimise(
+    const auto with_names = optimise(
         mixed,
         [&](const std::vector<double>& x) {
           asked.push_back(x);
@@ -235,11 +235,11 @@ BOOST_AUTO_TEST_CASE(points_are_named_before_they_are_asked_for) {
         });
     BOOST_TEST((named == asked), to_text(optimiser));
     BOOST_TEST(batches > 20U);
-    BOOST_TEST((told.x == plain.x));
-    BOOST_REQUIRE(told.evaluations.size() == plain.evaluations.size());
+    BOOST_TEST((with_names.x == plain.x));
+    BOOST_REQUIRE(with_names.evaluations.size() == plain.evaluations.size());
     for (std::size_t i = 0; i < plain.evaluations.size(); ++i)
-      BOOST_TEST((told.evaluations[i].x == plain.evaluations[i].x));
-    BOOST_TEST(told.stopped == plain.stopped);
+      BOOST_TEST((with_names.evaluations[i].x == plain.evaluations[i].x));
+    BOOST_TEST(with_names.stopped == plain.stopped);
   }
 }
 

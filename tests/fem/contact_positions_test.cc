@@ -207,4 +207,72 @@ BOOST_AUTO_TEST_CASE(a_transmission_error_that_falls_with_the_load_is_a_defect) 
   BOOST_CHECK_THROW(check_rise(problem, positions), annulus::InternalError);
 }
 
+/// The outside-fixed ring of the ring paper as a plane or a solid.
+annulus::fem::MeshBodies bodies_of(const LoadedMeshProblem& problem, annulus::fem::Fidelity fidelity) {
+  annulus::fem::LoadedMeshSettings settings;
+  settings.fidelity = fidelity;
+  settings.degree = 1;
+  return build_bodies(problem, annulus::fem::FlankContact(problem.pair), settings, 1);
+}
+
+// Omitted pairs are proved apart by this bound: nowhere on a flank may the material yield less.
+BOOST_AUTO_TEST_CASE(least_displacements_bound_those_of_the_flank) {
+  const auto problem = ring_mesh({}, 8);
+  for (const auto fidelity : {annulus::fem::Fidelity::plane, annulus::fem::Fidelity::solid}) {
+    const auto bodies = bodies_of(problem, fidelity);
+    const auto& body = *bodies.wheel;
+    const auto& flank = body.body().flank;
+    const double base = problem.pair.wheel().base_radius();
+    annulus::fem::FlankPatch patch;
+    for (int i = 0; i < 5; ++i) {
+      const double roll = flank.low() + (0.3 + 0.1 * i) * (flank.high() - flank.low());
+      patch.loads.push_back(body.make_load(0, roll * roll / (2 * base), 1e-4));
+      for (int slice = 0; slice < body.slices(); ++slice) patch.elements.push_back({i, slice});
+    }
+    body.find_weights(patch, 0);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> force(0, 1000);
+    double tightest = 1;
+    for (int trial = 0; trial < 20; ++trial) {
+      Eigen::VectorXd forces(static_cast<Eigen::Index>(patch.elements.size()));
+      for (auto& f : forces) f = force(random);
+      for (const int at : {-2, -1, 0, 1, 2}) {
+        const Eigen::VectorXd displacement = body.displacement(at, patch, 0, forces);
+        const Eigen::VectorXd exact = body.least_by_slice(displacement),
+                              bound = body.least_displacement(at, patch, 0, forces);
+        const double size = displacement.cwiseAbs().maxCoeff();
+        BOOST_TEST((exact - bound).minCoeff() >= -1e-12 * size, "tooth " << at);
+        tightest = std::min(tightest, (exact - bound).maxCoeff() / size);
+      }
+    }
+    // Of the size of the displacement it leaves a few per cent open: most pairs need no more.
+    BOOST_TEST(tightest < 0.05);
+  }
+}
+
+// Sixteen positions at once have the stresses of each alone.
+BOOST_AUTO_TEST_CASE(stresses_of_many_positions_are_those_of_each) {
+  for (const auto& problem : {ring_mesh({}, 8), small_pinned_ring(0.01)}) {
+    const Solver solver(problem);
+    std::vector<annulus::fem::ContactForces> forces;
+    for (const double phase : {0.0, 0.3, 0.6, 0.9})
+      for (const int cycle : {0, 1}) {
+        ContactSystem::PairsCache cache;
+        ContactSystem::WarmStart warm;
+        (void)solver.system.solve(cycle, phase, problem.loads.front(), cache, warm, &forces.emplace_back());
+      }
+    using annulus::fem::StressRecovery;
+    std::vector<StressRecovery::Forces> list;
+    for (const auto& f : forces) list.push_back({&f.wheel, &f.supports});
+    const auto together = solver.bodies.wheel_stress->largest(list);
+    BOOST_REQUIRE(together.size() == forces.size());
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      const auto alone = solver.bodies.wheel_stress->stresses(forces[i].wheel, forces[i].supports).largest;
+      for (const auto value : {&annulus::fem::BodyStress::root_tension, &annulus::fem::BodyStress::root_compression,
+                               &annulus::fem::BodyStress::root_von_mises, &annulus::fem::BodyStress::rim_von_mises})
+        BOOST_TEST(std::abs(together[i].*value - alone.*value) <= 1e-9 * alone.root_von_mises);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
