@@ -19,6 +19,7 @@ namespace {
 
 constexpr int block = 12;  ///< periods: whole ones of 1, 2, 3, 4, 6 and 12
 constexpr int force_samples = 64;
+constexpr int fewest_starts = 4;
 
 /// Twelve periods of the excitation.
 struct Block {
@@ -42,6 +43,7 @@ struct Followed {
   int period = 0;             ///< 0: irregular
   bool decided = false;
   SystemState state;
+  double evaluations = 0, per_block = 0;  ///< of the equations of motion
 };
 
 /// Largest and smallest force and loss of contact of every mesh, in rising order: planets may change places.
@@ -55,18 +57,17 @@ std::vector<std::array<double, 3>> features(const Block& b, double scale) {
 
 class Follower {
  public:
-  /// `most_evaluations`: of the equations of motion, for one start, before the neighbours of an irregular motion are
-  /// followed.
-  Follower(const LumpedSystem& system, const SteadyProblem& problem, const IntegratorOptions& integrator,
-           double most_evaluations)
+  static constexpr int least_blocks = 4;  ///< fewer decide nothing
+
+  Follower(const LumpedSystem& system, const SteadyProblem& problem, const IntegratorOptions& integrator)
       : system_(system),
         problem_(problem),
         integrator_(integrator),
-        most_evaluations_(most_evaluations),
         meshes_(meshes_with_backlash(system)),
         leading_(leading(system, meshes_)) {}
 
-  [[nodiscard]] Followed follow(const SystemState& start) const {
+  /// `most_evaluations`: of the equations of motion, before the neighbours of an irregular motion are followed.
+  [[nodiscard]] Followed follow(const SystemState& start, double most_evaluations) const {
     ResponseRun run(system_, problem_.mesh_frequency, force_samples, integrator_);
     run.start_from(start.q, start.v);
     Followed result;
@@ -75,7 +76,7 @@ class Follower {
     // Vibrations that have neither settled nor become irregular get as much time again.
     const auto affordable = [&] {
       return std::ssize(blocks) < least_blocks ||
-             static_cast<double>(run.statistics().rhs_evaluations) < most_evaluations_;
+             static_cast<double>(run.statistics().rhs_evaluations) < most_evaluations;
     };
     for (int round = 0; round < rounds && !result.decided && affordable(); ++round) {
       bool repeats = false;
@@ -92,6 +93,8 @@ class Follower {
       result.decided =
           result.period > 0 || (affordable() && keeps_changing(changes, scale(blocks.back())) && parts(result.state));
     }
+    result.evaluations = static_cast<double>(run.statistics().rhs_evaluations);
+    result.per_block = result.evaluations / static_cast<double>(blocks.size());
     // Irregular motions show their largest forces now and then.
     const auto shown = result.period > 0 ? 1 : static_cast<std::ptrdiff_t>(blocks.size() / 3);
     result.lately.assign(blocks.end() - shown, blocks.end());
@@ -124,7 +127,7 @@ class Follower {
   }
 
  private:
-  static constexpr int least_blocks = 4, most_blocks = 24, rounds = 2;
+  static constexpr int most_blocks = 24, rounds = 2;
   static_assert(rounds * most_blocks * block == longest_start);
   static constexpr double still = 5e-3;  ///< of the force
 
@@ -216,7 +219,6 @@ class Follower {
   const LumpedSystem& system_;
   const SteadyProblem& problem_;
   IntegratorOptions integrator_;
-  double most_evaluations_;
   std::vector<int> meshes_;
   std::vector<Eigen::Index> leading_;
 };
@@ -225,22 +227,35 @@ class Follower {
 
 StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& problem, const SteadyOutcome& present,
                              const IntegratorOptions& integrator, const MotionSearch& search) {
-  // Contacts that begin and end stop the integrator: two thirds of its time pass outside the equations (profile of the
-  // stage of [HuFangXuShen2021] without damping).
-  constexpr double with_contacts = 3;
-  const double of_start = longest_search_s / (search.starts + 1);
-  const Follower follower(system, problem, integrator, of_start / (with_contacts * evaluation_seconds(system)));
+  const double evaluations = longest_search_s / evaluation_seconds(system);
+  const Follower follower(system, problem, integrator);
   const RandomStarts starts(system, problem, search.size);
   std::vector<Followed> followed(static_cast<std::size_t>(search.starts) + 1);
-  for_each_task(followed.size(), search.threads, [&](std::size_t i) {
+  const auto follow = [&](std::size_t i, double most_evaluations) {
     try {
-      followed[i] = follower.follow(i == 0 ? starts.beside(present.begin) : starts.draw(i));
+      followed[i] = follower.follow(i == 0 ? starts.beside(present.begin) : starts.draw(i), most_evaluations);
     } catch (const SolverError&) {  // one start that the integrator cannot follow is not decided
       followed[i].decided = false;
     }
-  });
+  };
+  // The first ones show how many others can be decided in the time.
+  const auto shown = std::min<std::size_t>(followed.size(), 2);
+  for_each_task(shown, search.threads,
+                [&](std::size_t i) { follow(i, evaluations / static_cast<double>(followed.size())); });
+  double left = evaluations, of_one = 0;
+  for (std::size_t i = 0; i < shown; ++i) {
+    left -= followed[i].evaluations;
+    of_one = std::max(of_one, Follower::least_blocks * followed[i].per_block);
+  }
+  const auto others = followed.size() - shown;
+  if (left < static_cast<double>(others) * of_one) {
+    const int affordable = std::max(static_cast<int>(left / of_one), fewest_starts - 1);
+    followed.resize(shown + std::min(others, static_cast<std::size_t>(affordable)));
+  }
+  for_each_task(followed.size() - shown, search.threads,
+                [&](std::size_t i) { follow(shown + i, left / static_cast<double>(followed.size() - shown)); });
   StableMotions result;
-  result.found.starts = search.starts;
+  result.found.starts = static_cast<int>(followed.size()) - 1;
   std::vector<std::size_t> examples;
   for (std::size_t i = 0; i < followed.size(); ++i) {
     const auto& f = followed[i];
@@ -281,11 +296,10 @@ StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& pr
 
 int affordable_starts(const LumpedSystem& system, const SteadyProblem& problem, const IntegratorOptions& integrator,
                       int wanted, StiffnessCourse course) {
-  constexpr int fewest = 4;
   const double of_start = integration_seconds(system, problem.mesh_frequency,
                                               periods_of_a_start * problem.period_in_cycles, integrator, course);
   const int starts = static_cast<int>(std::min<double>(wanted, usual_search_s / of_start));
-  return starts < std::min(fewest, wanted) ? 0 : starts;
+  return starts < std::min(fewest_starts, wanted) ? 0 : starts;
 }
 
 }  // namespace annulus::dynamics
