@@ -224,7 +224,7 @@ void declare(CLI::App& app, Arguments& arguments) {
            "  annulus geometry my.toml --json | jq .gears.sun.span_mm");
 
   auto* send = app.add_subcommand("export", "Results and gear data in the formats of other programs");
-  send->add_option("file", arguments.scene, "A table of a run (CSV), or a scene for rexs")->required();
+  send->add_option("file", arguments.scene, "A table of a run (CSV), or a scene")->required();
   std::string formats;
   for (const auto& f : export_formats()) formats += (formats.empty() ? "" : "|") + std::string(f.name);
   send->add_option("--to", arguments.format, "Format: " + formats)->required();
@@ -236,7 +236,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   examples(send,
            "  annulus export out/my/ring/stiffness_ring_planet.csv --to matlab\n"
            "  annulus export out/my/ring/ring_compliance.csv --to hdf5 -o ring.h5\n"
-           "  annulus export my.toml --to rexs\nFormats:\n" +
+           "  annulus export my.toml --to rexs\n"
+           "  annulus export my.toml --to matlab      M, C, G, K, B of its lumped system\nFormats:\n" +
                what);
 
   auto* fresh = app.add_subcommand("new", "Writes a commented scene to standard output");
@@ -244,11 +245,15 @@ void declare(CLI::App& app, Arguments& arguments) {
   fresh->add_option("--rexs", arguments.rexs, "Fill it with the gear data of this REXS file");
   fresh->add_option("--example", arguments.example, "The scene of this name from the project's examples and cases");
   fresh->add_flag("--minimal", arguments.minimal, "A planetary stage with as few lines as possible");
+  fresh->add_option("--scene", arguments.base, "This scene without its comments, with the values of --set");
+  fresh->add_option("--set", arguments.settings, "Other value for a key of --scene, KEY=VALUE; can be repeated")
+      ->allow_extra_args(false);
   add_common(*fresh, arguments);
   examples(fresh,
            "  annulus new planetary > my.toml\n"
            "  annulus new --minimal > my.toml       25 lines\n"
            "  annulus new --rexs gearbox.rexs > my.toml\n"
+           "  annulus new --scene my.toml --set ring.pins=12 > other.toml\n"
            "  annulus new --example grc_750kw/planetary_stage > my.toml\nScenes for --example:\n" +
                example_names());
 
@@ -257,6 +262,8 @@ void declare(CLI::App& app, Arguments& arguments) {
                           "Key or table of a scene, key of a result, or a term such as K_V; absent: all keys");
   auto* markdown = explain_key->add_flag("--markdown", arguments.markdown, "The scene reference as Markdown");
   explain_key->add_flag("--definitions", arguments.definitions, "All definitions as Markdown")->excludes(markdown);
+  explain_key->add_flag("--json-schema", arguments.json_schema, "The keys of scenes as a JSON Schema, for editors")
+      ->excludes(markdown);
   add_common(*explain_key, arguments);
   examples(explain_key,
            "  annulus explain module_mm\n"

@@ -25,6 +25,7 @@
 #include "app/run/finished_run.h"
 #include "app/run/pipeline.h"
 #include "app/scene/example_scenes.h"
+#include "app/scene/json_schema.h"
 #include "app/scene/new_scene.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene_files.h"
@@ -319,6 +320,10 @@ void compare_command(const Arguments& arguments) {
 }
 
 void explain_command(const Arguments& arguments) {
+  if (arguments.json_schema) {
+    fmt::print("{}\n", json_schema().dump(2));
+    return;
+  }
   if (arguments.markdown) {
     fmt::print("{}", scene_reference());
     return;
@@ -353,8 +358,9 @@ void explain_command(const Arguments& arguments) {
 
 void export_command(const Arguments& arguments) {
   refuse_altered_result(arguments.scene);
-  const auto file = export_file(arguments.scene, arguments.format, arguments.out, arguments.ring);
-  fmt::print("written {}\n", file.string());
+  for (const auto& file :
+       export_file(arguments.scene, arguments.format, arguments.out, arguments.ring, arguments.threads))
+    fmt::print("written {}\n", file.string());
 }
 
 void cache_command(const Arguments& arguments) {
@@ -376,6 +382,13 @@ void cache_command(const Arguments& arguments) {
 }
 
 void new_command(const Arguments& arguments) {
+  if (!arguments.base.empty()) {
+    if (!arguments.kind.empty() || !arguments.rexs.empty() || !arguments.example.empty() || arguments.minimal)
+      throw InputError("--scene: that scene has its kind and its data; leave out the kind and the other options");
+    fmt::print("{}", scene_text(read_scene_with(arguments.base, arguments.settings), {}));
+    return;
+  }
+  if (!arguments.settings.empty()) throw InputError("--set: changes the values of a scene; name it with --scene");
   if (arguments.minimal) {
     if (!arguments.rexs.empty() || !arguments.example.empty() ||
         (!arguments.kind.empty() && arguments.kind != "planetary"))

@@ -8,13 +8,13 @@ namespace annulus::app {
 
 /// What the command line says, whatever the command.
 struct Arguments {
-  std::string scene, out, cache, key, format, ring, kind, rexs, example, shell, folder, shard;
+  std::string scene, out, cache, key, format, ring, kind, rexs, example, base, shell, folder, shard;
   std::string command_line;          ///< as a whole
   std::vector<std::string> folders;  ///< of compare
   std::optional<std::string> budget, max_memory, max_time;
   std::vector<std::string> settings;  ///< of --set
   bool inputs = false, minimal = false, json = false, strict = false, markdown = false, definitions = false,
-       clear = false, quiet = false, verbose = false;
+       json_schema = false, clear = false, quiet = false, verbose = false;
   int threads = 1, shards = 8;
 };
 

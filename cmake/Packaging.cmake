@@ -4,7 +4,7 @@
 get_property(loaded_libraries GLOBAL PROPERTY ANNULUS_LOADED_LIBRARIES)
 set(libraries annulus_core annulus_geometry annulus_fem annulus_dynamics)
 set_target_properties(annulus_cli PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-set_target_properties(${libraries} ${loaded_libraries} PROPERTIES INSTALL_RPATH "$ORIGIN")
+set_target_properties(${libraries} annulus_app ${loaded_libraries} PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(TARGETS annulus_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/scenes ${PROJECT_SOURCE_DIR}/data/cases DESTINATION ${CMAKE_INSTALL_DATADIR}/annulus)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
@@ -38,7 +38,7 @@ install(FILES ${generated}/annulus.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 # The layers below the application as libraries: find_package(annulus), annulus::annulus_dynamics.
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/annulus)
 install(TARGETS ${libraries} EXPORT annulusTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS ${loaded_libraries} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS annulus_app ${loaded_libraries} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT annulusTargets NAMESPACE annulus:: DESTINATION ${package_folder})
 foreach(layer core geometry fem dynamics)
   # Not those of loaded libraries, which show deal.II and gmsh.
@@ -61,7 +61,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # What shared libraries do not tell: the scripts that reports contain.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libjs-chart.js, libjs-three, node-pako")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenblas0-pthread")
+# The module for Python is built for Debian's.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenblas0-pthread, python3-pandas, python3-xarray, python3-matplotlib")
 # For who builds against the libraries.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
     "libeigen3-dev, nlohmann-json3-dev, libboost-dev")

@@ -4,11 +4,11 @@ include(GNUInstallDirs)
 add_link_options(LINKER:--build-id)
 
 # A shared library per layer, of all sources in its folder and below, but for main.cc and for folders with libraries of
-# their own; the application, which nothing else links, is a static one:
+# their own:
 #   annulus_add_layer(core PUBLIC ... PRIVATE ... PRECOMPILE <Eigen/Core>)
 # PRECOMPILE names headers of other libraries that most sources include and that take long to read.
 function(annulus_add_layer name)
-  cmake_parse_arguments(ARG "STATIC" "" "PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
   file(GLOB_RECURSE libraries CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*/CMakeLists.txt)
   foreach(library ${libraries})
@@ -16,11 +16,7 @@ function(annulus_add_layer name)
     list(FILTER sources EXCLUDE REGEX "^${folder}/")
   endforeach()
   list(FILTER sources EXCLUDE REGEX "/main\\.cc$|/systems/skeleton/")
-  if(ARG_STATIC)
-    add_library(annulus_${name} STATIC ${sources})
-  else()
-    add_library(annulus_${name} SHARED ${sources})
-  endif()
+  add_library(annulus_${name} SHARED ${sources})
   target_include_directories(annulus_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/annulus>)
   target_link_libraries(annulus_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})

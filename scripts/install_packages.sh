@@ -13,21 +13,23 @@ packages=(
   libboost-dev libboost-test-dev
   libopenblas-dev libopenblas0-pthread
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
+  pybind11-dev python3-dev python3-pandas python3-xarray
   zlib1g-dev libhdf5-dev libmatio-dev libpugixml-dev librsvg2-dev libjs-chart.js libjs-three node-pako
 )
-tests=(python3 clang-format
+tests=(python3 python3-jsonschema clang-format
   parallel slurmctld slurmd slurm-client munge)  # they start the workers of a study
 all=(
   calculix-ccx octave    # benchmarks compare with them
   python3-h5py chromium  # they read exports and reports
+  python3-scipy python3-matplotlib python3-nbclient python3-ipykernel  # of the notebooks
 )
 npm_packages=()
 nightly=(clang libclang-rt-dev libomp-dev clang-tidy valgrind)
 case "${1:-}" in
   "") ;;
   --tests) packages+=("${tests[@]}") ;;
-  --all) packages+=("${tests[@]}" "${all[@]}"); npm_packages=(axe-core@4.14.1) ;;
-  --nightly) packages+=("${tests[@]}" "${all[@]}" "${nightly[@]}"); npm_packages=(axe-core@4.14.1) ;;
+  --all) packages+=("${tests[@]}" "${all[@]}"); npm_packages=(axe-core@4.14.1 @taplo/cli@0.7.0) ;;
+  --nightly) packages+=("${tests[@]}" "${all[@]}" "${nightly[@]}"); npm_packages=(axe-core@4.14.1 @taplo/cli@0.7.0) ;;
   *) echo "install_packages.sh: unknown option $1" >&2; exit 2 ;;
 esac
 
@@ -54,8 +56,8 @@ if [ ${#missing[@]} -gt 0 ]; then
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 fi
 
-# Reports are checked by axe-core, which Debian does not have.
-if [ ${#npm_packages[@]} -gt 0 ] && [ ! -f node_modules/axe-core/axe.min.js ]; then
+# Reports are checked by axe-core, the schema of scenes by taplo, which Debian does not have.
+if [ ${#npm_packages[@]} -gt 0 ] && { [ ! -f node_modules/axe-core/axe.min.js ] || [ ! -e node_modules/.bin/taplo ]; }; then
   npm install --silent --no-save --no-package-lock "${npm_packages[@]}"
 fi
 

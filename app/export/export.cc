@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "app/export/matrices.h"
 #include "app/export/rexs.h"
 #include "app/export/table_text.h"
 #include "app/scene/scene.h"
@@ -91,10 +92,18 @@ void export_table(const std::filesystem::path& source, const ExportFormat& forma
   }
 }
 
-void export_scene(const std::filesystem::path& source, std::string ring, const std::filesystem::path& file) {
+std::vector<std::filesystem::path> export_scene(const std::filesystem::path& source, const ExportFormat& format,
+                                                std::string ring, const std::filesystem::path& file, int threads) {
   const Scene scene = read_scene(source);
   if (ring.empty() && scene.rings.size() == 1) ring = scene.rings.front().name;
-  write_file(file, rexs_text(scene, ring));
+  if (!format.write_matrices && !format.write_arrays) {
+    write_file(file, rexs_text(scene, ring));
+    return {file};
+  }
+  const auto matrices = lumped_matrices(scene, ring, threads);
+  if (format.write_matrices) return format.write_matrices(file, matrices);
+  format.write_arrays(file, matrices);
+  return {file};
 }
 
 }  // namespace
@@ -108,12 +117,13 @@ const std::vector<ExportFormat>& export_formats() {
       {"simpack", ".afs", "input functions of Simpack", simpack_text},
       {"adams", ".adm", "SPLINE statements of Adams", adams_text},
       {"rexs", ".rexs", "gear data of a scene as REXS 1.4 (XML)"},
+      {"mtx", ".mtx", "matrices of a scene, Matrix Market", nullptr, nullptr, write_matrix_market},
       {"png", ".png", "a picture of a report (OUT/pictures/*.svg) in pixels"}};
   return formats;
 }
 
-std::filesystem::path export_file(const std::filesystem::path& source, const std::string& format,
-                                  const std::filesystem::path& out, const std::string& ring) {
+std::vector<std::filesystem::path> export_file(const std::filesystem::path& source, const std::string& format,
+                                               const std::filesystem::path& out, const std::string& ring, int threads) {
   const auto& formats = export_formats();
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == format; });
   if (found == formats.end()) {
@@ -128,12 +138,14 @@ std::filesystem::path export_file(const std::filesystem::path& source, const std
   if (is_picture != (format == "png"))
     throw InputError(
         fmt::format("{}: png takes a picture (.svg), and a picture can be exported as png only", source.string()));
-  if (is_scene && format != "rexs")
+  const bool takes_scenes = format == "rexs" || found->write_arrays || found->write_matrices;
+  if (is_scene && !takes_scenes)
     throw InputError(
-        fmt::format("{}: a scene can be exported as rexs; {} takes a table of a run, such as "
-                    "OUT/<ring>/stiffness_ring_planet.csv",
+        fmt::format("{}: a scene can be exported as rexs, its matrices as hdf5, matlab and mtx; {} takes a table of a "
+                    "run, such as OUT/<ring>/stiffness_ring_planet.csv",
                     source.string(), format));
-  if (!is_scene && format == "rexs") throw InputError(fmt::format("{}: rexs takes a scene (.toml)", source.string()));
+  if (!is_scene && (format == "rexs" || format == "mtx"))
+    throw InputError(fmt::format("{}: {} takes a scene (.toml)", source.string(), format));
   auto file = out;
   if (file.empty()) file = std::filesystem::path(source).replace_extension(found->ending);
   std::error_code error;
@@ -142,10 +154,10 @@ std::filesystem::path export_file(const std::filesystem::path& source, const std
   if (is_picture)
     write_png(source, file);
   else if (is_scene)
-    export_scene(source, ring, file);
+    return export_scene(source, *found, ring, file, threads);
   else
     export_table(source, *found, file);
-  return file;
+  return {file};
 }
 
 }  // namespace annulus::app

@@ -13,20 +13,26 @@ struct ExportFormat {
   const char *name, *ending, *what;
   std::string (*table_text)(const StiffnessTable& table) = nullptr;  ///< takes stiffness tables and nothing else
   void (*write_arrays)(const std::filesystem::path& file, const NamedArrays& arrays) = nullptr;  ///< takes any table
+  /// Takes matrices; returns the files.
+  std::vector<std::filesystem::path> (*write_matrices)(const std::filesystem::path& file,
+                                                       const NamedArrays& arrays) = nullptr;
 };
 [[nodiscard]] const std::vector<ExportFormat>& export_formats();
 
-/// Writes `source` in `format`; `out` empty: beside the source, with the format's ending. Returns what was written.
+/// Writes `source` in `format`; `out` empty: beside the source, with the format's ending; `ring` chooses one of a scene
+/// with several. Returns what was written.
 ///
 ///     stiffness_<mesh>.csv       all formats but rexs
 ///     ring_compliance.csv        csv, hdf5, matlab: the compliance and the stiffness matrix of the ring
 ///     other tables of a run      csv, hdf5, matlab: a vector per column
-///     a scene (.toml)            rexs; `ring` chooses one where there are several
+///     a scene (.toml)            rexs; hdf5, matlab, mtx: the matrices of its lumped system
 ///     a picture (.svg)           png
 ///
 /// Throws InputError when the source is none of these or cannot be had in that format.
-[[nodiscard]] std::filesystem::path export_file(const std::filesystem::path& source, const std::string& format,
-                                                const std::filesystem::path& out, const std::string& ring);
+[[nodiscard]] std::vector<std::filesystem::path> export_file(const std::filesystem::path& source,
+                                                             const std::string& format,
+                                                             const std::filesystem::path& out, const std::string& ring,
+                                                             int threads);
 
 /// A picture in pixels. Throws InputError naming the file.
 void write_png(const std::filesystem::path& svg, const std::filesystem::path& png);

@@ -8,7 +8,8 @@ namespace annulus::app {
 
 std::string unit_of_name(const std::string& name) {
   // Those that end like others stand before them.
-  static constexpr std::pair<const char*, const char*> endings[] = {{"_N_per_m", "N/m"},
+  static constexpr std::pair<const char*, const char*> endings[] = {{"_N_s_per_m", "N s/m"},
+                                                                    {"_N_per_m", "N/m"},
                                                                     {"_m_per_N", "m/N"},
                                                                     {"_m_per_s", "m/s"},
                                                                     {"_N_per_mm", "N/mm"},

@@ -102,6 +102,8 @@ class GearSystem {
     return std::nullopt;
   }
 
+  /// Frame and meaning of the coordinates of its lumped systems, for files of their matrices.
+  [[nodiscard]] virtual std::string coordinates() const { return "lengths, m"; }
   /// Bodies at which it can be part of a train; the lumped models then have LumpedModel::Abilities::lumped. Empty: it
   /// cannot.
   [[nodiscard]] virtual std::vector<TurningBody> turning_bodies() const { return {}; }

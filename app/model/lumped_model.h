@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/errors.h"
 #include "core/figure.h"
 #include "dynamics/figures/motion.h"
 #include "dynamics/spatial/space_motion.h"
@@ -69,7 +70,11 @@ class LumpedModel {
     return abilities_.starts(count, seed);
   }
   [[nodiscard]] FollowedPoint followed(const dynamics::SystemState* start) const { return abilities_.follow(start); }
-  [[nodiscard]] dynamics::LumpedCase lumped() const { return abilities_.lumped(); }
+  /// Throws InputError where the kind does not offer it.
+  [[nodiscard]] dynamics::LumpedCase lumped() const {
+    if (!abilities_.lumped) throw InputError("the lumped model of this kind of stage is not a system by itself");
+    return abilities_.lumped();
+  }
   [[nodiscard]] dynamics::SpaceMotion in_space(const dynamics::TimeSeries& series) const {
     return abilities_.space ? abilities_.space(series) : dynamics::SpaceMotion{};
   }

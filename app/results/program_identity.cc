@@ -50,8 +50,8 @@ bool is_loaded_library(std::string_view file) {
 
 int add_build_id(dl_phdr_info* object, std::size_t /*size*/, void* identity) {
   const std::string_view name(object->dlpi_name);
-  // The program itself has no name; libraries of others do not belong to the build.
-  if (!name.empty() && (name.find("libannulus_") == std::string_view::npos || is_loaded_library(name))) return 0;
+  // Neither the program, which may be Python, nor libraries of others belong to the build.
+  if (name.find("libannulus_") == std::string_view::npos || is_loaded_library(name)) return 0;
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const auto& segment = object->dlpi_phdr[i];
     if (segment.p_type != PT_NOTE) continue;
@@ -90,7 +90,7 @@ const std::string& program_identity() {
   static const std::string identity = [] {
     std::string ids;
     ::dl_iterate_phdr(add_build_id, &ids);
-    require(!ids.empty(), "the linker gives the program a build identity");
+    require(!ids.empty(), "the linker gives the libraries of annulus a build identity");
     for (const auto& library : loaded_libraries()) {
       const auto id = build_id_of(library.file());
       require(!id.empty(), "the linker gives " + library.file().string() + " a build identity");

@@ -59,8 +59,9 @@ struct StableMotions {
                                            const MotionSearch& search);
 
 /// As many of the wanted starts as `usual_search_s` of processor time allow by the cost law, which is the same on every
-/// machine; 0 where these are fewer than four. `longest_search_s` holds by counted evaluations: after the first start no
-/// more are tried than can be decided in this time, but for four, and one that takes more than its share is undecided.
+/// machine; 0 where these are fewer than four. `longest_search_s` holds by counted evaluations: after the first two
+/// no more are tried than can be decided in this time, but for four, and one that takes more than its share is
+/// undecided.
 [[nodiscard]] int affordable_starts(const LumpedSystem& system, const SteadyProblem& problem,
                                     const IntegratorOptions& integrator, int wanted, StiffnessCourse course);
 /// Periods of the excitation until a start is decided, on average: from 48 to 576.

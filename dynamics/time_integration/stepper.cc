@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <sundials/sundials_context.hpp>
@@ -241,6 +243,13 @@ class ExplicitStepper final : public SundialsStepper {
       // backlash have them: their windows are compared sample by sample.
       if (problem_.rooted.empty()) check(ERKStepSetInterpolantDegree(memory_, 3), 0);
     }
+    for (const auto& mesh : problem.system.meshes()) {
+      // In free flight nothing else resolves how the gap changes.
+      constexpr double steps_per_cycle = 32;
+      double rate = 2 * std::numbers::pi * std::abs(mesh.frequency);
+      for (const auto& error : mesh.errors) rate = std::max(rate, std::abs(error.rate));
+      if (rate > 0) longest_step_ = std::min(longest_step_, 2 * std::numbers::pi / (steps_per_cycle * rate));
+    }
     for (const auto& coupling : problem.system.couplings())
       for (const int m : coupling.meshes)
         coupled_ = coupled_ || std::find(problem.rooted.begin(), problem.rooted.end(), m) != problem.rooted.end();
@@ -346,6 +355,8 @@ class ExplicitStepper final : public SundialsStepper {
     std::swap(begin_, end_);
     double t = stop_;
     check(ERKStepSetStopTime(memory_, stop_), begin_.time);
+    const double pace = std::abs(problem_.workspace.pace);
+    if (fixed_step_ == 0 && pace > 0) check(ERKStepSetMaxStep(memory_, longest_step_ / pace), begin_.time);
     check(ERKStepEvolve(memory_, stop_, y_, &t, one_step), t);
     set(end_, t);
     find_event();
@@ -425,7 +436,8 @@ class ExplicitStepper final : public SundialsStepper {
 
   double fixed_step_ = 0, last_step_ = 0;
   long max_steps_ = 0;
-  bool coupled_ = false;  ///< whether meshes with backlash act on each other
+  double longest_step_ = std::numeric_limits<double>::infinity();  ///< s, at the nominal speed
+  bool coupled_ = false;                                           ///< whether meshes with backlash act on each other
   // Of the last step, of systems with backlash.
   double stop_ = 0;
   Place begin_, end_;

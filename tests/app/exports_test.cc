@@ -250,7 +250,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_exported) {
   const auto message = [&](const std::string& arguments) { return refusal(folder.path(), "export " + arguments); };
   BOOST_TEST(message("stiffness.csv --to mathlab").find("did you mean matlab?") != std::string::npos);
   BOOST_TEST(message("stiffness.csv --to rexs").find("rexs takes a scene") != std::string::npos);
-  BOOST_TEST(message("stage.toml --to hdf5").find("takes a table of a run") != std::string::npos);
+  BOOST_TEST(message("stage.toml --to simpack").find("takes a table of a run") != std::string::npos);
   BOOST_TEST(message("stage.toml --to rexs").find("no arc-tooth gears") != std::string::npos);
   BOOST_TEST(message("nowhere.csv --to hdf5").find("cannot read nowhere.csv") != std::string::npos);
   BOOST_TEST(message("stiffness.csv --to hdf5 -o nowhere/x.h5").find("cannot write nowhere/x.h5") != std::string::npos);

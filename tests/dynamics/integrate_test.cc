@@ -122,6 +122,40 @@ BOOST_AUTO_TEST_CASE(backlash_oscillator_in_closed_form) {
   }
 }
 
+// A body at rest between the flanks is struck by an error that changes much faster than the body moves: nothing but the
+// gap makes steps short.
+BOOST_AUTO_TEST_CASE(fast_errors_strike_a_body_at_rest) {
+  annulus::test::Verification record("A fast error strikes a body at rest between the flanks",
+                                     "closed form of the instant; fixed steps a thousand times shorter");
+  constexpr double mass = 2, half = 1e-4, amount = 1.05e-4, rate = 4000;
+  LumpedSystemBuilder builder;
+  MeshElement mesh;
+  mesh.b = builder.add_dof("x");
+  mesh.excitation = ConstantStiffness{5e6};
+  mesh.half_backlash = half;
+  mesh.frequency = 10;
+  mesh.errors = {{amount, rate, 0}};
+  builder.add_mass(mesh.b, mass);
+  builder.add_mesh(mesh);
+  const auto system = builder.build();
+  const double struck = std::asin(half / amount) / rate;
+  const auto after = [&](IntegratorOptions options, double end) {
+    auto workspace = system.workspace();
+    auto state = start(0, 0);
+    integrate(system, state, end, options, workspace);
+    return state.v[0];
+  };
+  const auto adaptive_options = tight(Integrator::arkode_explicit, 1e-8, 1e-14);
+  auto fixed = tight(Integrator::runge_kutta_4, 1e-8, 1e-14);
+  fixed.fixed_step = 2 * std::numbers::pi / rate / 2e4;
+  BOOST_TEST(after(adaptive_options, 0.999 * struck) == 0.0);
+  BOOST_TEST(after(adaptive_options, 1.01 * struck) > 0);
+  const double end = 0.4 * 2 * std::numbers::pi / rate;  // behind the crest
+  const double expected = after(fixed, end);
+  record.close("velocity after the first strike", "m/s", after(adaptive_options, end), expected, 1e-5,
+               "tolerance of the integrator at the events");
+}
+
 // Meissner's equation: a stiffness switching between two values, each piece an exact rotation in the phase plane.
 // Steps of free flight are far longer than a visit to the back flanks, which begins and ends within one.
 BOOST_AUTO_TEST_CASE(brief_contact_after_a_flight_in_closed_form) {

@@ -27,6 +27,14 @@ program=root/usr/bin/annulus
 "$program" check root/usr/share/annulus/scenes/ring_types.toml
 zcat -f root/usr/share/man/man1/annulus.1* | grep -q "annulus tradeoff\|tradeoff"
 
+# The Python package finds the program's libraries.
+export PYTHONPATH="$folder/root/usr/lib/python3/dist-packages" ANNULUS="$folder/root/usr/bin/annulus"
+/usr/bin/python3 -c "
+import annulus
+system = annulus.lumped(annulus.Scene.new('lin_parker_1999/four_planets'))
+assert len(system.M) == len(system.dofs) > 10, system
+print('Python', annulus.version(), system)"
+
 # The example finds the libraries by their package files.
 cmake -S "$source/examples" -B example -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$folder/root/usr" >/dev/null
 cmake --build example >/dev/null

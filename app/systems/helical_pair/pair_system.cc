@@ -100,6 +100,12 @@ class PairSystem final : public GearSystem {
     return {{"pinion", geometry.pinion().base_radius(), speed, torque},
             {"wheel", geometry.wheel().base_radius(), -speed / ratio, torque * ratio}};
   }
+  [[nodiscard]] std::string coordinates() const override {
+    return "the frame is that of the housing; y along the transverse line of action, z along the axes; u is the "
+           "rotation "
+           "times the base radius; all in m";
+  }
+
   [[nodiscard]] std::optional<dynamics::LumpedCase> rough_lumped() const override {
     return dynamics::lumped_case(rough_pair(scene()));
   }

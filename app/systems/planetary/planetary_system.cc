@@ -147,6 +147,14 @@ class PlanetarySystem final : public GearSystem {
     return ring_response(scene(), geometry(), ring, run.tables.front(), run.tables.at(ring + 1), options);
   }
 
+  [[nodiscard]] std::string coordinates() const override {
+    return "the frame turns with the carrier; x (towards planet 1 at time 0) and y of sun, ring and carrier, x "
+           "(radial) "
+           "and y (tangential) of each planet; u is the rotation times the base radius, of the carrier times the "
+           "centre "
+           "distance; all in m";
+  }
+
   [[nodiscard]] std::vector<TurningBody> turning_bodies() const override {
     using geometry::StageMember;
     const auto stage = stage_kinematics(scene(), geometry(), 0);

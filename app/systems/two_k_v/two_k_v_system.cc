@@ -77,6 +77,13 @@ class TwoKVSystem final : public GearSystem {
                                [models] { return dynamics::lumped_case(models.moving); }});
   }
 
+  [[nodiscard]] std::string coordinates() const override {
+    return "the frame turns with the output carrier; x of cranks and arc gears across their eccentricities; u is the "
+           "rotation times a radius: the base radius of input, sun and planets, the eccentricity of cranks, the radius "
+           "of "
+           "the crank circle of arc gears and output; all in m";
+  }
+
   [[nodiscard]] std::vector<TurningBody> turning_bodies() const override {
     const auto stage = two_k_v_kinematics(scene());
     std::vector<TurningBody> bodies;
