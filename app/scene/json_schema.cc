@@ -95,7 +95,10 @@ Json required_by(const std::string& kind) {
     if (table.required && table.path.find('.') == std::string::npos && table.path != "stage")
       root["required"].push_back(table.path);
   }
-  return {{"if", {{"properties", {{"stage", {{"properties", {{"kind", {{"const", kind}}}}}}}}}}}, {"then", root}};
+  const Json is_kind = {
+      {"required", {"stage"}},
+      {"properties", {{"stage", {{"required", {"kind"}}, {"properties", {{"kind", {{"const", kind}}}}}}}}}};
+  return {{"if", is_kind}, {"then", root}};
 }
 
 }  // namespace
@@ -111,6 +114,8 @@ Json json_schema() {
   }
   root["properties"]["assumed"] = {{"type", "object"},
                                    {"description", "Inputs that are assumed, by their keys, each with its reason."}};
+  root["required"] = {"stage"};
+  root["properties"]["stage"]["required"] = {"kind"};
   root["allOf"] = Json::array();
   for (const auto& kind : stage_kinds()) root["allOf"].push_back(required_by(kind));
   return root;

@@ -67,6 +67,7 @@ class Follower {
         leading_(leading(system, meshes_)) {}
 
   /// `most_evaluations`: of the equations of motion, before the neighbours of an irregular motion are followed.
+  /// A start that the integrator cannot follow is not decided.
   [[nodiscard]] Followed follow(const SystemState& start, double most_evaluations) const {
     ResponseRun run(system_, problem_.mesh_frequency, force_samples, integrator_);
     run.start_from(start.q, start.v);
@@ -78,23 +79,33 @@ class Follower {
       return std::ssize(blocks) < least_blocks ||
              static_cast<double>(run.statistics().rhs_evaluations) < most_evaluations;
     };
-    for (int round = 0; round < rounds && !result.decided && affordable(); ++round) {
-      bool repeats = false;
-      for (int i = 0; i < most_blocks && !repeats && affordable(); ++i) {
-        blocks.push_back(advanced(run));
-        const auto& now = blocks.back();
-        if (blocks.size() > 1) changes.push_back(difference(now, blocks[blocks.size() - 2], 0));
-        // A motion may pass close to an unstable one: one agreement is none.
-        repeats = changes.size() > 2 && settled(changes, 0, scale(now)) && settled(changes, 1, scale(now));
+    const auto decide = [&] {
+      for (int round = 0; round < rounds && !result.decided && affordable(); ++round) {
+        bool repeats = false;
+        for (int i = 0; i < most_blocks && !repeats && affordable(); ++i) {
+          blocks.push_back(advanced(run));
+          const auto& now = blocks.back();
+          if (blocks.size() > 1) changes.push_back(difference(now, blocks[blocks.size() - 2], 0));
+          // A motion may pass close to an unstable one: one agreement is none.
+          repeats = changes.size() > 2 && settled(changes, 0, scale(now)) && settled(changes, 1, scale(now));
+        }
+        result.state = run.state();
+        result.state.time = 0;
+        result.period = repeats ? period_of(blocks.back()) : unsettled_period(blocks[blocks.size() - 2], blocks.back());
+        result.decided =
+            result.period > 0 || (affordable() && keeps_changing(changes, scale(blocks.back())) && parts(result.state));
       }
-      result.state = run.state();
-      result.state.time = 0;
-      result.period = repeats ? period_of(blocks.back()) : unsettled_period(blocks[blocks.size() - 2], blocks.back());
-      result.decided =
-          result.period > 0 || (affordable() && keeps_changing(changes, scale(blocks.back())) && parts(result.state));
+    };
+    bool failed = false;
+    try {
+      decide();
+    } catch (const SolverError&) {
+      failed = true;
+      result = {};
     }
     result.evaluations = static_cast<double>(run.statistics().rhs_evaluations);
-    result.per_block = result.evaluations / static_cast<double>(blocks.size());
+    result.per_block = result.evaluations / static_cast<double>(std::max<std::size_t>(blocks.size(), 1));
+    if (failed) return result;
     // Irregular motions show their largest forces now and then.
     const auto shown = result.period > 0 ? 1 : static_cast<std::ptrdiff_t>(blocks.size() / 3);
     result.lately.assign(blocks.end() - shown, blocks.end());
@@ -232,11 +243,7 @@ StableMotions stable_motions(const LumpedSystem& system, const SteadyProblem& pr
   const RandomStarts starts(system, problem, search.size);
   std::vector<Followed> followed(static_cast<std::size_t>(search.starts) + 1);
   const auto follow = [&](std::size_t i, double most_evaluations) {
-    try {
-      followed[i] = follower.follow(i == 0 ? starts.beside(present.begin) : starts.draw(i), most_evaluations);
-    } catch (const SolverError&) {  // one start that the integrator cannot follow is not decided
-      followed[i].decided = false;
-    }
+    followed[i] = follower.follow(i == 0 ? starts.beside(present.begin) : starts.draw(i), most_evaluations);
   };
   // The first ones show how many others can be decided in the time.
   const auto shown = std::min<std::size_t>(followed.size(), 2);

@@ -250,6 +250,7 @@ class ExplicitStepper final : public SundialsStepper {
       for (const auto& error : mesh.errors) rate = std::max(rate, std::abs(error.rate));
       if (rate > 0) longest_step_ = std::min(longest_step_, 2 * std::numbers::pi / (steps_per_cycle * rate));
     }
+    no_events_.reserve(2 * problem.rooted.size());
     for (const auto& coupling : problem.system.couplings())
       for (const int m : coupling.meshes)
         coupled_ = coupled_ || std::find(problem.rooted.begin(), problem.rooted.end(), m) != problem.rooted.end();
@@ -359,10 +360,13 @@ class ExplicitStepper final : public SundialsStepper {
     if (fixed_step_ == 0 && pace > 0) check(ERKStepSetMaxStep(memory_, longest_step_ / pace), begin_.time);
     check(ERKStepEvolve(memory_, stop_, y_, &t, one_step), t);
     set(end_, t);
+    no_events_.clear();
     find_event();
   }
 
+  /// The first one in the last step, but for those that were found to be none.
   void find_event() {
+    event_.reset();
     const double step = end_.time - begin_.time, half_way = begin_.time + step / 2;
     if (coupled_) {
       interpolate(half_way);
@@ -371,7 +375,9 @@ class ExplicitStepper final : public SundialsStepper {
     for (std::size_t i = 0; i < end_.margins.size(); ++i)
       for (const auto side : {&ContactMargins::drive, &ContactMargins::back}) {
         const auto &a = begin_.margins[i].*side, &b = end_.margins[i].*side;
-        if (!std::isfinite(b.value)) continue;
+        const bool none = std::any_of(no_events_.begin(), no_events_.end(),
+                                      [&](const Event& e) { return e.mesh == i && e.side == side; });
+        if (none || !std::isfinite(b.value)) continue;
         double slope = step * a.rate, end_slope = step * b.rate;
         if (coupled_) {  // the rates do not contain that of the common body
           const double m = (middle_[i].*side).value;
@@ -400,29 +406,40 @@ class ExplicitStepper final : public SundialsStepper {
   void locate_event() {
     const double whole = end_.time;
     double low = begin_.time, high = whole, t = event_->time;
-    const auto margin = [&] { return end_.margins[event_->mesh].*event_->side; };
-    const auto located = [&] {
-      event_->time = end_.time;
-      event_->located = true;
-    };
-    constexpr int most = 60;  // halvings of a step down to rounding
-    for (int i = 0; i < most; ++i) {
-      if (t - begin_.time <= 1e-14 * std::abs(t)) {  // at once
-        end_ = begin_;
-        return located();
-      }
+    double low_value = (begin_.margins[event_->mesh].*event_->side).value, high_value = margin().value;
+    bool crossed = high_value < 0;
+    if (t - low <= 1e-14 * std::abs(t)) {  // at once
+      end_ = begin_;
+      return note_located();
+    }
+    // Halvings of a step down to rounding; a dip that ends above zero is none if so few steps do not show it.
+    constexpr int most = 60, of_a_dip = 8;
+    for (int i = 0; i < (crossed ? most : of_a_dip) && t > low && t < high; ++i) {
       repeat_step(t);
       const auto [value, rate] = margin();
-      if (std::abs(value) <= slack(problem_.rooted[event_->mesh]) / 2) return located();
-      (value > 0 ? low : high) = t;
-      const double by_rate = t - value / rate;
-      t = rate < 0 && by_rate > low && by_rate < high ? by_rate : low + (high - low) / 2;
-      if (t <= low || t >= high) break;
+      if (std::abs(value) <= slack(problem_.rooted[event_->mesh]) / 2) return note_located();
+      crossed = crossed || value < 0;
+      if (value > 0 && (crossed || rate < 0))
+        low = t, low_value = value;
+      else  // below zero, or behind the lowest place of a dip
+        high = t, high_value = value;
+      // The rates of coupled meshes do not contain that of the common body.
+      const double next = coupled_ ? low + (high - low) * low_value / (low_value - high_value) : t - value / rate;
+      const bool usable = coupled_ ? crossed && i % 3 < 2 : rate < 0;
+      t = usable && next > low && next < high ? next : low + (high - low) / 2;
     }
-    repeat_step(high);
-    if (margin().value < 0) return located();
-    event_.reset();
-    if (high < whole) repeat_step(whole);
+    if (crossed) {
+      repeat_step(high);
+      return note_located();
+    }
+    no_events_.push_back(*event_);
+    repeat_step(whole);
+    find_event();
+  }
+  [[nodiscard]] ContactMargin margin() const { return end_.margins[event_->mesh].*event_->side; }
+  void note_located() {
+    event_->time = end_.time;
+    event_->located = true;
   }
 
   /// The event is the root.
@@ -443,6 +460,7 @@ class ExplicitStepper final : public SundialsStepper {
   Place begin_, end_;
   std::vector<ContactMargins> middle_;  ///< of coupled meshes
   std::optional<Event> event_;
+  std::vector<Event> no_events_;
   bool cut_ = false;  ///< it was taken again, shorter than the error of the method allows
 };
 

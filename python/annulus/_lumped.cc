@@ -9,6 +9,7 @@
 #include "app/run/solved_case.h"
 #include "app/scene/overrides.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/log.h"
 #include "dynamics/modes/linear_system.h"
 
@@ -68,8 +69,11 @@ Lumped solve(const std::string& file, const std::vector<std::string>& settings, 
 }  // namespace
 
 PYBIND11_MODULE(_lumped, module) {
-  // What a caller catches: the error of a wrong input (annulus.InputError).
-  py::register_exception<Error>(module, "Error", py::module_::import("annulus._program").attr("InputError"));
+  // Translators that are registered last are asked first.
+  const auto exceptions = py::module_::import("annulus._program");
+  py::register_exception<Error>(module, "Error", exceptions.attr("Refused"));
+  py::register_exception<FileError>(module, "FileError", exceptions.attr("InputError"));
+  py::register_exception<InputError>(module, "InputError", exceptions.attr("InputError"));
   using dynamics::LinearSystem;
   py::class_<LinearSystem>(module, "LinearSystem")
       .def_readonly("dofs", &LinearSystem::dofs)
@@ -90,7 +94,7 @@ PYBIND11_MODULE(_lumped, module) {
       .def("rhs", &Lumped::rhs)
       .def("jacobian", &Lumped::jacobian)
       .def("mesh_forces", &Lumped::mesh_forces);
-  module.def("solve", &solve);
+  module.def("solve", &solve, py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace annulus

@@ -17,7 +17,7 @@ class InputError(AnnulusError):
 
 
 class Refused(AnnulusError):
-    """The run is predicted to exceed a limit, or the folder belongs to another scene (exit status 3)."""
+    """A limit is predicted to be exceeded, a folder belongs to another scene, or a solver finds no answer (status 3)."""
 
 
 class LimitReached(AnnulusError):
@@ -37,7 +37,10 @@ def program():
 
 def call(*arguments):
     """Standard output of `annulus ARGUMENTS`; warnings and messages of the program are not shown."""
-    done = subprocess.run([program(), *map(str, arguments)], capture_output=True, text=True, check=False)
+    try:
+        done = subprocess.run([program(), *map(str, arguments)], capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise AnnulusError(f"{program()}: {error.strerror}; the environment variable ANNULUS names it") from None
     if done.returncode == 0:
         return done.stdout
     message = done.stderr.strip() or f"annulus {arguments[0]} ended with status {done.returncode} without a message"

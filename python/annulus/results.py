@@ -11,15 +11,20 @@ from .scene import Scene
 
 # Units at the ends of names; those that end like others stand before them.
 _units = {
-    "_N_per_m": "N/m", "_m_per_N": "m/N", "_m_per_s": "m/s", "_N_per_mm": "N/mm", "_kg_m2": "kg m²", "_N_m": "N m",
-    "_deg": "°", "_rad": "rad", "_MPa": "MPa", "_Pa": "Pa", "_Hz": "Hz", "_rpm": "r/min", "_um": "µm", "_mm": "mm",
-    "_kg": "kg", "_J": "J", "_W": "W", "_N": "N", "_m": "m", "_s": "s", "_relative": "1",
+    "_N_s_per_m": "N s/m", "_N_per_m": "N/m", "_m_per_N": "m/N", "_m_per_s2": "m/s²", "_m_per_s": "m/s",
+    "_N_per_mm": "N/mm", "_N_per_um": "N/µm", "_Nm_per_rad": "N m/rad", "_per_sqrt_kg": "", "_kg_m2": "kg m²",
+    "_N_m": "N m", "_deg": "°", "_rad": "rad", "_MPa": "MPa", "_Pa": "Pa", "_Hz": "Hz", "_rpm": "r/min", "_um": "µm",
+    "_mm": "mm", "_kg": "kg", "_J": "J", "_W": "W", "_N": "N", "_m": "m", "_s": "s", "_relative": "1",
 }  # fmt: skip
 
 
 def unit_of(name):
     """Unit of a column or a result by its name: "N/m" of "stiffness_N_per_m"; empty where the name states none."""
     return next((unit for ending, unit in _units.items() if name.endswith(ending)), "")
+
+
+# Columns of texts: names of rings stay texts, also "12" and "NA".
+_texts = {"variant", "key", "symbol", "unit", "title", "name", "ring", "kind"}
 
 
 def read_table(file):
@@ -31,7 +36,15 @@ def read_table(file):
                 break
             key, _, value = line[1:].partition(":")
             header[key.strip()] = value.strip()
-    table = pandas.read_csv(file, skiprows=len(header), float_precision="round_trip")
+    columns = pandas.read_csv(file, skiprows=len(header), nrows=0).columns
+    table = pandas.read_csv(
+        file,
+        skiprows=len(header),
+        float_precision="round_trip",
+        dtype={name: str for name in columns if name in _texts},
+        keep_default_na=False,
+        na_values={name: ["", "nan"] for name in columns if name not in _texts},
+    )
     table.attrs = {**header, "units": {name: unit_of(name) for name in table.columns if unit_of(name)}}
     return table
 
@@ -67,12 +80,9 @@ class Results:
 
     def _figures(self):
         table = read_table(self.folder / "figures.csv")
-        table["variant"] = table["variant"].fillna("")
         table = table.rename(
             columns={"value": "value_SI", "error": "error_SI", "shown_value": "value", "shown_error": "error"}
         )
-        for name in ["unit", "symbol"]:
-            table[name] = table[name].fillna("")
         columns = ["symbol", "value", "error", "unit", "title", "value_SI", "error_SI"]
         drawn = ["quantile_05", "median", "quantile_95"]
         if table[drawn].notna().any(axis=None):

@@ -72,7 +72,8 @@ class Scene:
             toml_value(new)
             if not isinstance(key, str):
                 raise TypeError(f"{key!r} is not a key of a scene")
-        return Scene(self._file, {**self._changes, **changes}, self._folder)
+        kept = {key: old for key, old in self._changes.items() if key not in changes}  # the last one said holds
+        return Scene(self._file, {**kept, **changes}, self._folder)
 
     def tables(self):
         """The tables of the file with the changes, as tomllib reads them."""

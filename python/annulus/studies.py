@@ -2,6 +2,7 @@
 
 import itertools
 from concurrent.futures import ThreadPoolExecutor
+from numbers import Integral
 
 import numpy
 import pandas
@@ -11,12 +12,16 @@ from .results import run
 from .scene import Scene
 
 
+# What a point may end with; anything else, a missing program say, ends the study.
+_refusals = (_program.InputError, _program.Refused, _program.LimitReached)
+
+
 def _row(results, variant, figures):
-    row = {}
     found = results.figures.loc[variant]
+    row = {}
     for key in figures if figures is not None else found.index:
-        row[key] = results.value(key, variant)
-        row[key + "_error"] = results.error(key, variant)
+        at = found.loc[key] if key in found.index else {"value_SI": numpy.nan, "error_SI": numpy.nan}
+        row[key], row[key + "_error"] = float(at["value_SI"]), float(at["error_SI"])
     return row
 
 
@@ -25,27 +30,38 @@ def study(scene, inputs, *, figures=None, workers=1, **options):
 
     Returns a data frame in SI units with the results and their errors (`<key>_error`), by variant and inputs. `figures`:
     keys of the wanted results; all without. A point that the program refuses has its message in the column `failure`.
-    `workers` runs go on at a time; `options` are those of `run`. What points share is computed once.
+    `workers` runs go on at a time; `options` are those of `run` but `out`. What points share is computed once.
     """
+    if "out" in options:
+        raise TypeError("points of a study share no folder: leave out `out`")
     if not isinstance(scene, Scene):
         scene = Scene.load(scene)
     names = list(inputs)
-    points = list(itertools.product(*(list(inputs[name]) for name in names)))
+    values = [list(inputs[name]) for name in names]
+    if not names or not all(values):
+        raise ValueError("a study needs inputs, each with one value at least")
+    points = list(itertools.product(*values))
 
     def rows_of(point):
-        at = dict(zip(names, point, strict=True))
+        scene_at = scene.set(dict(zip(names, point, strict=True)))
+        # Lists are no labels of a row.
+        at = {n: tuple(v) if numpy.ndim(v) else v for n, v in zip(names, point, strict=True)}
         try:
-            results = run(scene.set(at), **options)
-        except _program.AnnulusError as error:
+            results = run(scene_at, **options)
+        except _refusals as error:
             return [{"variant": "", **at, "failure": str(error)}]
         return [{"variant": v, **at, "failure": "", **_row(results, v, figures)} for v in results.variants]
 
     # What all points share is found by the first one; the others read it.
-    rows = rows_of(points[0]) if points else []
+    rows = rows_of(points[0])
     with ThreadPoolExecutor(workers) as pool:
         for more in pool.map(rows_of, points[1:]):
             rows += more
-    return pandas.DataFrame(rows).set_index(["variant", *names])
+    table = pandas.DataFrame(rows).set_index(["variant", *names])
+    unknown = [key for key in figures or [] if key in table and table[key].isna().all()]
+    if unknown and (table["failure"] == "").any():
+        raise KeyError(f"{', '.join(unknown)}: no point has this result; Results.figures lists those of a run")
+    return table
 
 
 class Search:
@@ -54,7 +70,7 @@ class Search:
     search = Search(scene, {"ring.rim_mm": (10, 40)}, "sun_planet_dynamic_factor"); search(x) is the objective at x, one
     value per input. An optimiser that asks and tells is driven by `drive`; a function that takes an objective, such as
     scipy.optimize.minimize, takes the search itself. A point that was evaluated before, in any run, is not computed
-    again.
+    again. An input whose bounds are whole numbers (int) takes whole numbers: its values are rounded.
     """
 
     def __init__(self, scene, inputs, objective, *, goal="smallest", variant=None, failed=numpy.inf, **options):
@@ -66,6 +82,7 @@ class Search:
         self.scene = scene if isinstance(scene, Scene) else Scene.load(scene)
         self.names = list(inputs)
         self.bounds = [tuple(map(float, inputs[name])) for name in self.names]
+        self._whole = [all(isinstance(bound, Integral) for bound in inputs[name]) for name in self.names]
         for name, (low, high) in zip(self.names, self.bounds, strict=True):
             if not low < high:
                 raise ValueError(f"{name}: the bounds {low} and {high} do not rise")
@@ -78,6 +95,7 @@ class Search:
 
     def __call__(self, x):
         x = [float(value) for value in numpy.atleast_1d(x)]
+        x = [round(value) if whole else value for value, whole in zip(x, self._whole, strict=False)]
         if len(x) != len(self.names):
             raise ValueError(f"{len(x)} values for {len(self.names)} inputs ({', '.join(self.names)})")
         at = dict(zip(self.names, x, strict=True))
@@ -85,8 +103,10 @@ class Search:
         try:
             results = run(self.scene.set(at), **self._options)
             key = self._objective
-            value = key(results) if callable(key) else results.value(key, self._variant)
-        except _program.AnnulusError as error:
+            value = float(key(results) if callable(key) else results.value(key, self._variant))
+            if not numpy.isfinite(value):
+                value, failure = None, f"the objective is {value}"
+        except _refusals as error:
             value, failure = None, str(error)
         self._rows.append({**at, "objective": numpy.nan if value is None else value, "failure": failure})
         return self._failed if value is None else self._sign * value
@@ -112,6 +132,8 @@ class Search:
         done = 0
         while done < evaluations:
             asked = optimiser.ask()
+            if len(asked) == 0:
+                raise ValueError(f"the optimiser asks for no point after {done} evaluations")
             several = numpy.ndim(asked) > 1
             values = [self(x) for x in (asked if several else [asked])]
             optimiser.tell(asked, values if several else values[0])

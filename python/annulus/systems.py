@@ -12,8 +12,8 @@ from .scene import Scene
 class Lumped:
     """M q'' + (C + G) q' + (K + K_rotation) q = load, at the operating point, with mean mesh stiffnesses.
 
-    Coordinates are lengths in metres; rotations are arcs on the base circle (for a carrier on the centre distance). Those
-    of a stage turn with its carrier. Matrices are data frames with the names of the coordinates, in SI units: mass kg,
+    Coordinates are lengths in metres; rotations and tilts are multiplied by the base radius (for a carrier by the centre
+    distance). Those of a stage turn with its carrier. Matrices are data frames with the names of the coordinates, in SI units: mass kg,
     damping N s/m, stiffness N/m. `rhs`, `jacobian` and `mesh_forces` are those of the whole system, with tables,
     backlash and errors, at a time in s and a state (q, q').
     """
@@ -60,7 +60,8 @@ class Lumped:
 
     @property
     def B(self):
-        """Mesh vectors: approach of the flanks along the line of action = B' q, one column per mesh."""
+        """Mesh vectors: approach of the flanks along the line of action = B' q, one column per mesh. A column of the tilt
+        of a mesh is what its flanks approach further at the end of the face."""
         return pandas.DataFrame(self._linear.mesh_vectors, self.dofs, self.meshes)
 
     @property

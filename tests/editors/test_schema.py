@@ -90,5 +90,12 @@ for table, key in [("stage", "module_mm"), ("sun", "teeth"), ("stage", "face_wid
     if not problems(changed):
         print(f"{table} without {key}: is not found to be wrong")
         failed += 1
+# An unfinished scene is told what it lacks, and nothing of other kinds.
+for unfinished in [{}, {"stage": {}}, {"stage": {"module_mm": 2}}]:
+    found = problems(unfinished)
+    tried += 1
+    if len(found) != 1 or not ("stage" in found[0] or "kind" in found[0]):
+        print(f"{unfinished}: {found}")
+        failed += 1
 print(f"{len(files)} scenes, {len(named)} keys, {tried} wrong values: {failed} problems")
 sys.exit(1 if failed else 0)

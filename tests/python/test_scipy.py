@@ -67,6 +67,30 @@ class Motion(unittest.TestCase):
             size = numpy.abs(jacobian).max()
             self.assertLess(numpy.abs(slope - jacobian[:, i]).max(), 1e-5 * size)
 
+    def test_systems_of_every_kind(self):
+        scenes = ["helical_pair", "helical_pair_in_bearings", "arc_tooth_2kv", "grc_750kw/in_space"]
+        for name in scenes:
+            scene = annulus.Scene.new(name).set({"model": "closed_form", "accuracy": 0.1})
+            try:
+                scene.check()
+            except annulus.InputError:
+                scene = annulus.Scene.new(name).set("accuracy", 0.1)
+            system = annulus.lumped(scene)
+            n = len(system.dofs)
+            self.assertGreater(n, 4, name)
+            mass = system.M.to_numpy()
+            self.assertTrue(numpy.allclose(mass, mass.T), name)
+            self.assertGreater(numpy.linalg.eigvalsh(mass).min(), 0, name)
+            rate = system.rhs(0.0, numpy.zeros(2 * n))
+            self.assertTrue(numpy.isfinite(rate).all(), name)
+            file = self.folder / (name.replace("/", "_") + ".toml")
+            scene.save(file)
+            _program.call("export", file, "--to", "hdf5")
+            with h5py.File(file.with_suffix(".h5")) as hdf5:
+                frame = hdf5.attrs["frame"].decode()
+                for suffix in {dof.rsplit("_", 1)[1] for dof in hdf5.attrs["coordinates"].decode().split()}:
+                    self.assertIn(suffix, frame.replace(",", " ").replace(";", " ").split(), name)
+
     def test_exported_matrices_are_those_of_the_system(self):
         system = annulus.lumped(self.scene)
         file = self.folder / "scene.toml"

@@ -101,9 +101,9 @@ class PairSystem final : public GearSystem {
             {"wheel", geometry.wheel().base_radius(), -speed / ratio, torque * ratio}};
   }
   [[nodiscard]] std::string coordinates() const override {
-    return "the frame is that of the housing; y along the transverse line of action, z along the axes; u is the "
-           "rotation "
-           "times the base radius; all in m";
+    return "the frame is that of the housing; y along the transverse line of action, x across it, z along the axes; u "
+           "is "
+           "the rotation and tiltx, tilty are the tilts times the base radius; all in m";
   }
 
   [[nodiscard]] std::optional<dynamics::LumpedCase> rough_lumped() const override {

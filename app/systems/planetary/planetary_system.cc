@@ -150,9 +150,9 @@ class PlanetarySystem final : public GearSystem {
   [[nodiscard]] std::string coordinates() const override {
     return "the frame turns with the carrier; x (towards planet 1 at time 0) and y of sun, ring and carrier, x "
            "(radial) "
-           "and y (tangential) of each planet; u is the rotation times the base radius, of the carrier times the "
-           "centre "
-           "distance; all in m";
+           "and y (tangential) of each planet, z along the axis; u is the rotation and tiltx, tilty are the tilts "
+           "times "
+           "the base radius, of the carrier times the centre distance; all in m";
   }
 
   [[nodiscard]] std::vector<TurningBody> turning_bodies() const override {

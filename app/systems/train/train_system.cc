@@ -78,6 +78,12 @@ class TrainSystem final : public GearSystem {
 
   [[nodiscard]] std::vector<PlannedResponse> responses() const override { return train_responses(scene(), parts()); }
 
+  [[nodiscard]] std::string coordinates() const override {
+    std::string text;
+    for (const auto& part : parts()) text += (text.empty() ? "" : "; ") + part.name + ": " + part.system->coordinates();
+    return text;
+  }
+
   [[nodiscard]] std::optional<dynamics::LumpedCase> rough_lumped() const override {
     return dynamics::lumped_case(rough_train(scene(), parts()));
   }
