@@ -11,14 +11,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <sundials/sundials_context.hpp>
 
 #include "core/errors.h"
-#include "dynamics/time_integration/contact_margins.h"
 #include "dynamics/time_integration/vector_kernels.h"
 
 namespace annulus::dynamics {
@@ -177,15 +174,12 @@ class SundialsStepper : public Stepper {
     check(package_.set_user_data(memory_, &problem_), 0);
     check(package_.set_weights(memory_, annulus_weights), 0);
     check(package_.set_max_steps(memory_, options.max_steps), 0);
-  }
-  void look_for_roots() {
     if (!problem_.rooted.empty()) check(package_.set_roots(memory_, static_cast<int>(roots_.size()), annulus_roots), 0);
   }
 
   virtual void begin(double t, double stop) = 0;
   /// Called after the last step before a restart.
   virtual void remember() {}
-  void count_from_here() { counting_ = true; }
 
   void check(int flag, double t) const {
     if (flag < 0)
@@ -200,9 +194,9 @@ class SundialsStepper : public Stepper {
   StepperProblem& problem_;
   N_Vector y_ = nullptr;
   void* memory_ = nullptr;
-  std::vector<int> roots_;
 
  private:
+  std::vector<int> roots_;
   std::string message_;
   bool counting_ = false;
 };
@@ -223,13 +217,10 @@ class NewtonMatrix {
   SUNLinearSolver solver;
 };
 
-/// Finds contacts that begin and end without root functions of the package, which would interpolate the whole state
-/// some ten times per event. Between the ends of a step the deflections of the meshes are taken as cubics. Where one
-/// leaves its contact state the step is taken again up to there, so that the state at an event is one of the method.
 class ExplicitStepper final : public SundialsStepper {
  public:
   ExplicitStepper(StepperProblem& problem, const IntegratorOptions& options)
-      : SundialsStepper(problem, erkstep), fixed_step_(options.fixed_step), max_steps_(options.max_steps) {
+      : SundialsStepper(problem, erkstep), fixed_step_(options.fixed_step) {
     own(ERKStepCreate(annulus_rhs, 0.0, y_, context_), options);
     if (options.method == Integrator::runge_kutta_4) {
       // Zonneveld's pair is the classical method with an embedded error estimate that a fixed step ignores. The bare
@@ -239,229 +230,22 @@ class ExplicitStepper final : public SundialsStepper {
       check(ERKStepSetFixedStep(memory_, fixed_step_), 0);
     } else {
       check(ERKStepSetTableNum(memory_, ARKODE_CASH_KARP_6_4_5), 0);
-      // Cubic: from what the steps know anyway. The higher degrees cost two evaluations per sample. Systems with
-      // backlash have them: their windows are compared sample by sample.
+      // Cubic: from what the steps know anyway. The higher degrees cost two evaluations per sample; samples stay within
+      // the tolerance either way, but the state after a contact event is an interpolated one and goes on.
       if (problem_.rooted.empty()) check(ERKStepSetInterpolantDegree(memory_, 3), 0);
-    }
-    for (const auto& mesh : problem.system.meshes()) {
-      // In free flight nothing else resolves how the gap changes.
-      constexpr double steps_per_cycle = 32;
-      double rate = 2 * std::numbers::pi * std::abs(mesh.frequency);
-      for (const auto& error : mesh.errors) rate = std::max(rate, std::abs(error.rate));
-      if (rate > 0) longest_step_ = std::min(longest_step_, 2 * std::numbers::pi / (steps_per_cycle * rate));
-    }
-    no_events_.reserve(2 * problem.rooted.size());
-    for (const auto& coupling : problem.system.couplings())
-      for (const int m : coupling.meshes)
-        coupled_ = coupled_ || std::find(problem.rooted.begin(), problem.rooted.end(), m) != problem.rooted.end();
-  }
-
-  Reached advance(double out) override {
-    if (problem_.rooted.empty()) return SundialsStepper::advance(out);
-    for (long steps = 0;;) {
-      if (event_ && event_->time <= out) {
-        if (!event_->located) {
-          locate_event();
-          continue;  // it may lie behind `out`, or there is none
-        }
-        note_root();
-        state() = end_.state;
-        return {end_.time, true};
-      } else if (out <= end_.time) {
-        interpolate(out);
-        return {out, false};
-      } else {
-        if (++steps > max_steps_)
-          throw SolverError(fmt::format(
-              "time integration failed: after {} steps it is at t = {:.9g} s, before {:.9g} s; loosen the tolerance or "
-              "choose another integrator",
-              max_steps_, end_.time, out));
-        take_step();
-      }
     }
   }
 
  private:
-  static constexpr int one_step = 2;
-
-  /// An end of a step.
-  struct Place {
-    double time = 0;
-    Eigen::VectorXd state;
-    std::vector<ContactMargins> margins;  ///< of the rooted meshes
-  };
-  /// The first mesh that leaves its contact state within the last step, as its cubic says.
-  struct Event {
-    double time = 0;
-    std::size_t mesh = 0;  ///< among the rooted ones
-    ContactMargin ContactMargins::*side = nullptr;
-    bool located = false;  ///< the last step ends there
-  };
-
   void begin(double t, double stop) override {
-    start(t, last_step_, stop);
-    stop_ = stop;
-    cut_ = false;
-    event_.reset();
-    if (!problem_.rooted.empty()) set(end_, t);
-  }
-  void remember() override {
-    if (!cut_) check(ERKStepGetCurrentStep(memory_, &last_step_), 0);
-  }
-
-  void start(double t, double step, double stop) {
     check(ERKStepReInit(memory_, annulus_rhs, t, y_), t);
-    // After an event the integration goes on with the step size from before it.
-    if (fixed_step_ == 0 && step > 0) check(ERKStepSetInitStep(memory_, std::min(step, stop - t)), t);
+    // After the event the integration goes on with the step size from before it.
+    if (fixed_step_ == 0 && last_step_ > 0) check(ERKStepSetInitStep(memory_, std::min(last_step_, stop - t)), t);
     check(ERKStepSetStopTime(memory_, stop), t);
   }
-
-  /// Flanks that have just touched or parted have this margin, m: far below the deflections that matter, and above the
-  /// rounding of the displacements.
-  [[nodiscard]] double slack(int mesh) {
-    constexpr double fine = 1e-9, rounding = 1e-15;
-    const double half = *problem_.system.meshes()[static_cast<std::size_t>(mesh)].half_backlash;
-    return fine * std::min(half, problem_.tolerance.extent[0]) +
-           rounding * state().head(problem_.system.dofs()).cwiseAbs().maxCoeff();
-  }
-  /// To the present state.
-  void set(Place& place, double t) {
-    place.time = t;
-    place.state = state();
-    set_margins(place.margins, t);
-  }
-  void set_margins(std::vector<ContactMargins>& margins, double t) {
-    const double* y = N_VGetArrayPointer(y_);
-    problem_.system.evaluate_meshes(problem_.system_time(t), y, y + problem_.system.dofs(), problem_.workspace);
-    margins.clear();
-    for (const int m : problem_.rooted)
-      margins.push_back(contact_margins(problem_.system, m, slack(m), problem_.workspace));
-  }
-
-  void interpolate(double t) {
-    if (t == end_.time) {
-      state() = end_.state;
-      return;
-    }
-    double last = 0;
-    check(ERKStepGetLastStep(memory_, &last), t);
-    if (t < end_.time - last) {  // the last step was repeated in several
-      event_.reset();
-      return repeat_step(t);
-    }
-    check(ERKStepGetDky(memory_, t, 0, y_), t);
-  }
-
-  void take_step() {
-    std::swap(begin_, end_);
-    double t = stop_;
-    check(ERKStepSetStopTime(memory_, stop_), begin_.time);
-    const double pace = std::abs(problem_.workspace.pace);
-    if (fixed_step_ == 0 && pace > 0) check(ERKStepSetMaxStep(memory_, longest_step_ / pace), begin_.time);
-    check(ERKStepEvolve(memory_, stop_, y_, &t, one_step), t);
-    set(end_, t);
-    no_events_.clear();
-    find_event();
-  }
-
-  /// The first one in the last step, but for those that were found to be none.
-  void find_event() {
-    event_.reset();
-    const double step = end_.time - begin_.time, half_way = begin_.time + step / 2;
-    if (coupled_) {
-      interpolate(half_way);
-      set_margins(middle_, half_way);
-    }
-    for (std::size_t i = 0; i < end_.margins.size(); ++i)
-      for (const auto side : {&ContactMargins::drive, &ContactMargins::back}) {
-        const auto &a = begin_.margins[i].*side, &b = end_.margins[i].*side;
-        const bool none = std::any_of(no_events_.begin(), no_events_.end(),
-                                      [&](const Event& e) { return e.mesh == i && e.side == side; });
-        if (none || !std::isfinite(b.value)) continue;
-        double slope = step * a.rate, end_slope = step * b.rate;
-        if (coupled_) {  // the rates do not contain that of the common body
-          const double m = (middle_[i].*side).value;
-          slope = 4 * m - 3 * a.value - b.value;
-          end_slope = a.value + 3 * b.value - 4 * m;
-        }
-        const auto where = first_descent(a.value, slope, b.value, end_slope);
-        if (where && (!event_ || begin_.time + *where * step < event_->time))
-          event_ = Event{begin_.time + *where * step, i, side};
-      }
-  }
-
-  /// Takes the last step again, up to `t` within it.
-  void repeat_step(double t) {
-    close();
-    cut_ = true;
-    state() = begin_.state;
-    start(begin_.time, t - begin_.time, t);
-    count_from_here();
-    double reached = t;
-    check(ERKStepEvolve(memory_, t, y_, &reached, normal), t);
-    set(end_, t);
-  }
-
-  /// Takes the last step again, up to the event, or whole where there is none after all.
-  void locate_event() {
-    const double whole = end_.time;
-    double low = begin_.time, high = whole, t = event_->time;
-    double low_value = (begin_.margins[event_->mesh].*event_->side).value, high_value = margin().value;
-    bool crossed = high_value < 0;
-    if (t - low <= 1e-14 * std::abs(t)) {  // at once
-      end_ = begin_;
-      return note_located();
-    }
-    // Halvings of a step down to rounding; a dip that ends above zero is none if so few steps do not show it.
-    constexpr int most = 60, of_a_dip = 8;
-    for (int i = 0; i < (crossed ? most : of_a_dip) && t > low && t < high; ++i) {
-      repeat_step(t);
-      const auto [value, rate] = margin();
-      if (std::abs(value) <= slack(problem_.rooted[event_->mesh]) / 2) return note_located();
-      crossed = crossed || value < 0;
-      if (value > 0 && (crossed || rate < 0))
-        low = t, low_value = value;
-      else  // below zero, or behind the lowest place of a dip
-        high = t, high_value = value;
-      // The rates of coupled meshes do not contain that of the common body.
-      const double next = coupled_ ? low + (high - low) * low_value / (low_value - high_value) : t - value / rate;
-      const bool usable = coupled_ ? crossed && i % 3 < 2 : rate < 0;
-      t = usable && next > low && next < high ? next : low + (high - low) / 2;
-    }
-    if (crossed) {
-      repeat_step(high);
-      return note_located();
-    }
-    no_events_.push_back(*event_);
-    repeat_step(whole);
-    find_event();
-  }
-  [[nodiscard]] ContactMargin margin() const { return end_.margins[event_->mesh].*event_->side; }
-  void note_located() {
-    event_->time = end_.time;
-    event_->located = true;
-  }
-
-  /// The event is the root.
-  void note_root() {
-    const bool drive = event_->side == &ContactMargins::drive;
-    const bool opens = problem_.workspace.contact[static_cast<std::size_t>(problem_.rooted[event_->mesh])] !=
-                       LumpedSystem::Contact::open;
-    std::fill(roots_.begin(), roots_.end(), 0);
-    roots_[StepperProblem::roots_per_mesh * event_->mesh + (drive ? 0 : 1)] = drive == opens ? -1 : 1;
-  }
+  void remember() override { check(ERKStepGetCurrentStep(memory_, &last_step_), 0); }
 
   double fixed_step_ = 0, last_step_ = 0;
-  long max_steps_ = 0;
-  double longest_step_ = std::numeric_limits<double>::infinity();  ///< s, at the nominal speed
-  bool coupled_ = false;                                           ///< whether meshes with backlash act on each other
-  // Of the last step, of systems with backlash.
-  double stop_ = 0;
-  Place begin_, end_;
-  std::vector<ContactMargins> middle_;  ///< of coupled meshes
-  std::optional<Event> event_;
-  std::vector<Event> no_events_;
-  bool cut_ = false;  ///< it was taken again, shorter than the error of the method allows
 };
 
 class MultistepStepper final : public SundialsStepper {
@@ -472,7 +256,6 @@ class MultistepStepper final : public SundialsStepper {
     // Settings are taken after the first initialisation only.
     if (memory) check(CVodeInit(memory, annulus_rhs, 0.0, y_), 0);
     own(memory, options);
-    look_for_roots();
     if (adams) {
       // Where Adams methods are useful, steps are short enough for fixed-point iteration, at a third of Newton's time.
       iteration_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
@@ -506,7 +289,6 @@ class DiagonallyImplicitStepper final : public SundialsStepper {
   DiagonallyImplicitStepper(StepperProblem& problem, const IntegratorOptions& options)
       : SundialsStepper(problem, arkstep), newton_(y_, problem.size(), context_) {
     own(ARKStepCreate(nullptr, annulus_rhs, 0.0, y_, context_), options);
-    look_for_roots();
     check(ARKStepSetTableNum(memory_, ARKODE_ESDIRK547L2SA_7_4_5, ARKODE_ERK_NONE), 0);
     // Hermite interpolation multiplies the remains of fast motions by their rates.
     check(ARKStepSetInterpolantType(memory_, ARK_INTERP_LAGRANGE), 0);
