@@ -35,37 +35,48 @@ Eigen::VectorXcd floquet_multipliers(const LumpedSystem& system, const Eigen::Ve
   state.topRightCorner(elastic, elastic).setIdentity();
   state.bottomLeftCorner(moving, elastic) = -swift.transpose() * stiffness * bent / (w * w);
   state.bottomRightCorner(moving, moving) = -swift.transpose() * damping * swift / w;
-  const double step = period / static_cast<double>(samples);
+  // Impulses further apart than half a cycle of a mode act on it as on a slower one, which makes it grow or not.
+  constexpr double fine = 1, most_steps = 1 << 15;
+  const double phase = w * period / static_cast<double>(samples);
+  const int parts =
+      std::max(1, static_cast<int>(std::ceil(std::min(phase / fine, most_steps / static_cast<double>(samples)))));
+  const double step = period / static_cast<double>(samples * parts);
   const Eigen::MatrixXd drift = exponential(state * (w * step));
+  const Eigen::MatrixXd of_displacement = b.transpose() * bent, of_velocity = b.transpose() * swift;
   // Changes of the mesh forces with approaches and rates, beyond those of the constant stiffness and damping.
   std::vector<Eigen::MatrixXd> tangent(static_cast<std::size_t>(samples), Eigen::MatrixXd(count, count));
-  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(samples, count), force(samples, count);
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(samples, count), force(samples, count), damper = meshes.damping();
   for (Eigen::Index m = 0; m < count; ++m) {
+    damper.col(m).array() -= system.meshes()[static_cast<std::size_t>(m)].damping;
     unit.col(m).setOnes();
     meshes.apply_tangent(unit, mesh_stiffness, force);
     for (Eigen::Index i = 0; i < samples; ++i) tangent[static_cast<std::size_t>(i)].col(m) = force.row(i);
     unit.col(m).setZero();
   }
-  const Eigen::MatrixXd of_displacement = b.transpose() * bent, of_velocity = b.transpose() * swift;
   const Eigen::MatrixXd gain = of_velocity * of_velocity.transpose();
   Eigen::MatrixXd map = Eigen::MatrixXd::Identity(size, size);
   for (Eigen::Index i = 0; i < samples; ++i) {
-    auto velocity = map.bottomRows(moving);
-    const Eigen::MatrixXd kick = (step / w) * of_velocity.transpose() *
-                                 (tangent[static_cast<std::size_t>(i)] * (of_displacement * map.topRows(elastic)));
-    Eigen::VectorXd damper(count);
-    for (Eigen::Index m = 0; m < count; ++m)
-      damper[m] = meshes.damping()(i, m) - system.meshes()[static_cast<std::size_t>(m)].damping;
-    if (damper.any()) {
-      // The rate in the middle of the impulse.
-      const Eigen::MatrixXd resisted =
-          Eigen::MatrixXd::Identity(count, count) + (step / 2) * gain * damper.asDiagonal();
-      const Eigen::MatrixXd rate = resisted.partialPivLu().solve(of_velocity * (velocity - kick / 2));
-      velocity -= kick + step * of_velocity.transpose() * (damper.asDiagonal() * rate);
-    } else {
-      velocity -= kick;
+    const Eigen::Index next = (i + 1) % samples;
+    for (int part = 0; part < parts; ++part) {
+      const double share = part / static_cast<double>(parts);
+      const auto between = [share](const auto& here, const auto& there) { return (1 - share) * here + share * there; };
+      auto velocity = map.bottomRows(moving);
+      const Eigen::MatrixXd change =
+          between(tangent[static_cast<std::size_t>(i)], tangent[static_cast<std::size_t>(next)]);
+      const Eigen::VectorXd resists = between(damper.row(i), damper.row(next)).transpose();
+      const Eigen::MatrixXd kick =
+          (step / w) * of_velocity.transpose() * (change * (of_displacement * map.topRows(elastic)));
+      if (resists.any()) {
+        // The rate in the middle of the impulse.
+        const Eigen::MatrixXd resisted =
+            Eigen::MatrixXd::Identity(count, count) + (step / 2) * gain * resists.asDiagonal();
+        const Eigen::MatrixXd rate = resisted.partialPivLu().solve(of_velocity * (velocity - kick / 2));
+        velocity -= kick + step * of_velocity.transpose() * (resists.asDiagonal() * rate);
+      } else {
+        velocity -= kick;
+      }
+      map = drift * map;
     }
-    map = drift * map;
   }
   const Eigen::VectorXcd all = eigenvalues(map, "the Floquet multipliers");
   std::vector<std::complex<double>> sorted(all.begin(), all.end());
