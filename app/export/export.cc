@@ -9,7 +9,7 @@
 #include "app/export/matrices.h"
 #include "app/export/rexs.h"
 #include "app/export/table_text.h"
-#include "app/scene/scene.h"
+#include "app/scene/scene_schema.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -92,18 +92,27 @@ void export_table(const std::filesystem::path& source, const ExportFormat& forma
   }
 }
 
-std::vector<std::filesystem::path> export_scene(const std::filesystem::path& source, const ExportFormat& format,
-                                                std::string ring, const std::filesystem::path& file, int threads) {
-  const Scene scene = read_scene(source);
-  if (ring.empty() && scene.rings.size() == 1) ring = scene.rings.front().name;
-  if (!format.write_matrices && !format.write_arrays) {
-    write_file(file, rexs_text(scene, ring));
-    return {file};
-  }
-  const auto matrices = lumped_matrices(scene, ring, threads);
-  if (format.write_matrices) return format.write_matrices(file, matrices);
-  format.write_arrays(file, matrices);
-  return {file};
+std::vector<std::filesystem::path> write_rexs(const Scene& scene, const SceneExport& wanted) {
+  write_file(wanted.file, rexs_text(scene, wanted.ring));
+  return {wanted.file};
+}
+
+/// The matrices of its lumped system.
+template <void (*write)(const std::filesystem::path& file, const NamedArrays& arrays)>
+std::vector<std::filesystem::path> write_matrices(const Scene& scene, const SceneExport& wanted) {
+  write(wanted.file, lumped_matrices(scene, wanted.ring, wanted.threads));
+  return {wanted.file};
+}
+
+std::vector<std::filesystem::path> write_matrices_apart(const Scene& scene, const SceneExport& wanted) {
+  return write_matrix_market(wanted.file, lumped_matrices(scene, wanted.ring, wanted.threads));
+}
+
+std::string formats_of_scenes() {
+  std::vector<std::string> names;
+  for (const auto& format : export_formats())
+    if (format.write_scene) names.emplace_back(format.name);
+  return listed(names);
 }
 
 }  // namespace
@@ -111,13 +120,13 @@ std::vector<std::filesystem::path> export_scene(const std::filesystem::path& sou
 const std::vector<ExportFormat>& export_formats() {
   static const std::vector<ExportFormat> formats = {
       {"csv", ".plain.csv", "columns alone, for spreadsheets"},
-      {"hdf5", ".h5", "HDF5 with named axes and units", nullptr, write_hdf5},
-      {"matlab", ".mat", "MATLAB, Octave, SciPy", nullptr, write_matlab},
+      {"hdf5", ".h5", "HDF5 with named axes and units", nullptr, write_hdf5, write_matrices<write_hdf5>},
+      {"matlab", ".mat", "MATLAB, Octave, SciPy", nullptr, write_matlab, write_matrices<write_matlab>},
       {"modelica", ".txt", "CombiTable1D and CombiTable2D of the Modelica Standard Library", modelica_text},
       {"simpack", ".afs", "input functions of Simpack", simpack_text},
       {"adams", ".adm", "SPLINE statements of Adams", adams_text},
-      {"rexs", ".rexs", "gear data of a scene as REXS 1.4 (XML)"},
-      {"mtx", ".mtx", "matrices of a scene, Matrix Market", nullptr, nullptr, write_matrix_market},
+      {"rexs", ".rexs", "gear data of a scene as REXS 1.4 (XML)", nullptr, nullptr, write_rexs},
+      {"mtx", ".mtx", "matrices of a scene, Matrix Market", nullptr, nullptr, write_matrices_apart},
       {"png", ".png", "a picture of a report (OUT/pictures/*.svg) in pixels"}};
   return formats;
 }
@@ -138,23 +147,26 @@ std::vector<std::filesystem::path> export_file(const std::filesystem::path& sour
   if (is_picture != (format == "png"))
     throw InputError(
         fmt::format("{}: png takes a picture (.svg), and a picture can be exported as png only", source.string()));
-  const bool takes_scenes = format == "rexs" || found->write_arrays || found->write_matrices;
-  if (is_scene && !takes_scenes)
+  const bool takes_tables = found->table_text || found->write_arrays || format == "csv";
+  if (is_scene && !found->write_scene)
     throw InputError(
-        fmt::format("{}: a scene can be exported as rexs, its matrices as hdf5, matlab and mtx; {} takes a table of a "
-                    "run, such as OUT/<ring>/stiffness_ring_planet.csv",
-                    source.string(), format));
-  if (!is_scene && (format == "rexs" || format == "mtx"))
+        fmt::format("{}: a scene can be exported as {}; {} takes a table of a run, such as "
+                    "OUT/<ring>/stiffness_ring_planet.csv",
+                    source.string(), formats_of_scenes(), format));
+  if (!is_scene && !is_picture && !takes_tables)
     throw InputError(fmt::format("{}: {} takes a scene (.toml)", source.string(), format));
   auto file = out;
   if (file.empty()) file = std::filesystem::path(source).replace_extension(found->ending);
   std::error_code error;
   if (std::filesystem::equivalent(file, source, error))
     throw InputError(fmt::format("-o {}: is the file to be exported itself", file.string()));
+  if (is_scene) {
+    const Scene scene = read_scene(source);
+    const bool one = ring.empty() && scene.rings.size() == 1;
+    return found->write_scene(scene, {.ring = one ? scene.rings.front().name : ring, .threads = threads, .file = file});
+  }
   if (is_picture)
     write_png(source, file);
-  else if (is_scene)
-    return export_scene(source, *found, ring, file, threads);
   else
     export_table(source, *found, file);
   return {file};

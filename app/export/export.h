@@ -5,17 +5,24 @@
 #include <vector>
 
 #include "app/export/named_arrays.h"
+#include "app/scene/scene.h"
 
 /// `annulus export`: results and gear data in the formats of other programs.
 namespace annulus::app {
+
+/// What an export of a scene needs beside the scene.
+struct SceneExport {
+  std::string ring;  ///< of a scene with several
+  int threads = 1;
+  std::filesystem::path file;
+};
 
 struct ExportFormat {
   const char *name, *ending, *what;
   std::string (*table_text)(const StiffnessTable& table) = nullptr;  ///< takes stiffness tables and nothing else
   void (*write_arrays)(const std::filesystem::path& file, const NamedArrays& arrays) = nullptr;  ///< takes any table
-  /// Takes matrices; returns the files.
-  std::vector<std::filesystem::path> (*write_matrices)(const std::filesystem::path& file,
-                                                       const NamedArrays& arrays) = nullptr;
+  /// Takes scenes; returns the files.
+  std::vector<std::filesystem::path> (*write_scene)(const Scene& scene, const SceneExport& wanted) = nullptr;
 };
 [[nodiscard]] const std::vector<ExportFormat>& export_formats();
 

@@ -6,17 +6,18 @@
 #include "app/scene/new_scene.h"
 #include "app/scene/scene.h"
 
-/// REXS (Reusable Engineering EXchange Standard, FVA, version 1.4): the gear data of a stage as XML.
+/// REXS (Reusable Engineering EXchange Standard, FVA, version 1.4): the gear data of a stage as XML. What each kind of
+/// gear system says and reads stands with it.
 namespace annulus::app {
 
-/// The stage with the ring of that name (helical pairs have none). What REXS has no attribute for stands in custom
+/// The stage with the ring of that name (stages without rings: empty). What REXS has no attribute for stands in custom
 /// attributes `custom_annulus_<key>`, with the key, unit and value of the scene. Throws InputError for a ring that is
-/// not there and for stages that REXS cannot describe (2K-V).
+/// not there and for kinds that REXS cannot describe.
 [[nodiscard]] std::string rexs_text(const Scene& scene, const std::string& ring);
 
-/// What a file of REXS 1.x says about its planetary stage or, without one, its first cylindrical stage.
+/// What a file of REXS 1.x says about the first stage that one of the kinds recognises, in the order of the kinds.
 struct RexsScene {
-  std::string kind = "planetary";
+  std::string kind;
   NewValues values{};
 };
 /// Throws InputError naming the file and what it lacks or contradicts.

@@ -110,6 +110,17 @@ std::vector<MeshModel> tables_to_solve(const Scene& nominal, const Scene& change
   return list;
 }
 
+std::string GearSystem::rexs(const std::string& /*ring*/) const {
+  if (!scene_kind(scene().stage.kind).gears)
+    throw InputError(fmt::format("{}: a {} has no gears of its own; export the scenes of its parts",
+                                 scene().file.string(), scene().stage.kind));
+  std::vector<std::string> known;
+  for (const auto& kind : system_kinds())
+    if (kind.from_rexs) known.push_back(kind.scene.name);
+  throw InputError(fmt::format("{}: stage.kind = {}: REXS does not describe its gears, only those of {}",
+                               scene().file.string(), scene().stage.kind, listed(known)));
+}
+
 GearSystem::Statics GearSystem::statics(const RunOptions&) const {
   throw InputError(fmt::format("{}: stage.kind = {}: annulus statics computes planetary stages alone",
                                scene().file.string(), scene().stage.kind));

@@ -14,6 +14,7 @@
 #include "app/plan/mesh_model.h"
 #include "app/plan/warning.h"
 #include "app/report/section.h"
+#include "app/scene/new_scene.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_kind.h"
 #include "core/figure.h"
@@ -21,6 +22,7 @@
 
 namespace annulus::app {
 
+class RexsFile;
 struct Plan;
 struct RunOptions;
 struct RunResponse;
@@ -102,6 +104,9 @@ class GearSystem {
     return std::nullopt;
   }
 
+  /// Its gear data as REXS, with the ring of that name (export/rexs.h). Throws InputError where REXS cannot describe
+  /// it.
+  [[nodiscard]] virtual std::string rexs(const std::string& ring) const;
   /// Frame and meaning of the coordinates of its lumped systems, for files of their matrices.
   [[nodiscard]] virtual std::string coordinates() const { return "lengths, m"; }
   /// Bodies at which it can be part of a train; the lumped models then have LumpedModel::Abilities::lumped. Empty: it
@@ -171,6 +176,8 @@ struct SystemKind {
   const std::vector<FigureSpec>& (*figures)();        ///< all results, those of its meshes first
   const std::vector<FigureSpec>& (*model_figures)();  ///< those of its lumped model, which studies vary
   std::unique_ptr<GearSystem> (*make)(const Scene& scene);
+  /// What a REXS file says about a stage of this kind; nothing where it has none. Absent: REXS cannot describe it.
+  std::optional<NewValues> (*from_rexs)(const RexsFile& file) = nullptr;
 };
 /// systems/registry.cc
 [[nodiscard]] const std::vector<SystemKind>& system_kinds();

@@ -14,12 +14,22 @@ namespace annulus::app {
 
 namespace {
 
-constexpr const char* error_bodies[] = {"planet_eccentricity",  "planet_pin_position_error",
-                                        "sun_eccentricity",     "sun_position_error",
-                                        "ring_eccentricity",    "ring_position_error",
-                                        "carrier_eccentricity", "carrier_position_error",
-                                        "mesh_error",           "pinion_error",
-                                        "wheel_error"};
+/// An error that has a direction or a phase: errors.<name>_um and errors.<name>_phase_deg.
+struct PhasedError {
+  std::string name;
+  bool of_each_planet = false;
+};
+
+std::vector<PhasedError> phased_errors(const std::string& kind) {
+  constexpr std::string_view ending = "_phase_deg";
+  std::vector<PhasedError> list;
+  const auto* errors = find_table("errors", schema(kind));
+  if (errors == nullptr) return list;
+  for (const auto& p : errors->parameters)
+    if (p.name.ends_with(ending))
+      list.push_back({p.name.substr(0, p.name.size() - ending.size()), p.kind == Parameter::Kind::reals});
+  return list;
+}
 
 bool drawn(const Scene& scene, const std::string& path) {
   for (const auto& random : scene.random_inputs) {
@@ -41,17 +51,15 @@ bool stated(const Scene& scene, const std::string& key) {
 /// Phases that matter: of errors that the scene gives or draws, those that it states left out on request.
 std::vector<std::string> unknown_phases(const Scene& scene, bool unstated_only) {
   std::vector<std::string> paths;
-  for (const std::string body : error_bodies) {
-    if (!find_parameter("errors." + body + "_um")->applies_to(scene.stage.kind)) continue;
-    const bool planets = body.starts_with("planet");
-    if (unstated_only && stated(scene, fmt::format("errors.{}_phase_deg", body))) continue;
-    for (int n = 1; n <= (planets ? scene.stage.planets : 1); ++n) {
-      const std::string index = planets ? fmt::format("[{}]", n) : "";
-      const std::string amount = fmt::format("errors.{}_um{}", body, index),
-                        phase = fmt::format("errors.{}_phase_deg{}", body, index);
+  for (const auto& [name, of_each_planet] : phased_errors(scene.stage.kind)) {
+    if (unstated_only && stated(scene, fmt::format("errors.{}_phase_deg", name))) continue;
+    for (int n = 1; n <= (of_each_planet ? scene.stage.planets : 1); ++n) {
+      const std::string index = of_each_planet ? fmt::format("[{}]", n) : "";
+      const std::string amount = fmt::format("errors.{}_um{}", name, index),
+                        phase = fmt::format("errors.{}_phase_deg{}", name, index);
       const bool exists =
           input_value(scene, find_input(scene, amount)).value_or(0) != 0 || drawn(scene, amount) ||
-          (body == "mesh_error" && scene.manufacturing_error && scene.manufacturing_error->reading != "none");
+          (name == "mesh_error" && scene.manufacturing_error && scene.manufacturing_error->reading != "none");
       if (exists && !drawn(scene, phase)) paths.push_back(phase);
     }
   }
@@ -146,22 +154,6 @@ std::vector<StudyCase> combinations(const std::vector<SweepInput>& inputs, const
   return cases;
 }
 
-/// Stiffnesses of supports and bearings, clearance of bearings, damping and backlash.
-bool often_assumed(const Parameter& p) {
-  return (p.table == "supports" && p.name.ends_with("_N_per_m")) ||
-         (p.name.starts_with("bearing_") && p.kind == Parameter::Kind::real) ||
-         p.key() == "dynamics.mesh_damping_ratio" || p.key() == "dynamics.support_damping_ratio" ||
-         p.key() == "dynamics.half_backlash_um" || p.name == "planet_clearance_um";
-}
-
-/// Stiffnesses and inertias of a 2K-V stage.
-bool often_assumed_in_reducers(const Parameter& p) {
-  constexpr std::string_view tables[] = {"crank", "arc_gear", "input", "output"},
-                             units[] = {"N/m", "N m/rad", "kg m²", "kg"};
-  return std::find(std::begin(tables), std::end(tables), p.table) != std::end(tables) &&
-         std::find(std::begin(units), std::end(units), p.unit) != std::end(units);
-}
-
 }  // namespace
 
 std::string unit_of_input(const Scene& scene, const std::string& input) {
@@ -202,15 +194,12 @@ std::vector<std::string> sensitivity_inputs(const Scene& scene) {
   if (!scene.sensitivity) return {};
   if (!scene.sensitivity->inputs.empty()) return scene.sensitivity->inputs;
   std::vector<std::string> inputs;
-  for (const auto applies : {often_assumed, often_assumed_in_reducers}) {
-    for (const auto& table : schema()) {
-      for (const auto& p : table.parameters) {
-        if (!applies(p) || !table.applies_to(scene.stage.kind) || !p.applies_to(scene.stage.kind)) continue;
-        for (const auto& path : paths_of(scene, p)) {
-          const double value = input_value(scene, find_input(scene, path)).value_or(0);
-          const bool listed = std::find(inputs.begin(), inputs.end(), path) != inputs.end();
-          if (!listed && value != 0 && std::isfinite(value)) inputs.push_back(path);
-        }
+  for (const auto& table : schema(scene.stage.kind)) {
+    for (const auto& p : table.parameters) {
+      if (!p.often_assumed || !p.applies_to(scene.stage.kind)) continue;
+      for (const auto& path : paths_of(scene, p)) {
+        const double value = input_value(scene, find_input(scene, path)).value_or(0);
+        if (value != 0 && std::isfinite(value)) inputs.push_back(path);
       }
     }
   }

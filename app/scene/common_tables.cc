@@ -107,12 +107,15 @@ Table dynamics_table() {
       .key("half_backlash_um", &DynamicsInput::half_backlash,
            "Half the backlash of every mesh along the line of action.")
       .required()
+      .often_assumed()
       .from(0, 1e4);
   lumped.key("mesh_damping_ratio", &DynamicsInput::mesh_damping_ratio, "Damping ratio ζ of every mesh: c = 2ζ√(k m_e).")
       .required()
+      .often_assumed()
       .from(0, 2);
   lumped.key("support_damping_ratio", &DynamicsInput::support_damping_ratio, "Damping ratio of every bearing.")
       .required()
+      .often_assumed()
       .from(0, 2);
   for (const auto& [name, member, high, meaning] :
        {std::tuple{"modal_damping_ratio", &DynamicsInput::modal_damping_ratio, 2.0,

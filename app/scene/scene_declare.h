@@ -78,6 +78,8 @@ class Declared {
   Declared& not_empty(const char* what) { return p_.at_least_one = what, *this; }
   Declared& distinct() { return p_.distinct = true, *this; }
   Declared& infinite() { return p_.may_be_infinite = true, *this; }
+  /// Seldom known: [sensitivity] varies it where it names no inputs.
+  Declared& often_assumed() { return p_.often_assumed = true, *this; }
   /// A text for a value of a number: "rigid".
   Declared& word(const char* text, double value) { return p_.words.emplace_back(text, value), *this; }
   /// The only permitted texts of a list of texts.

@@ -36,6 +36,7 @@ struct Parameter {
   std::size_t longest = longest_list;                   ///< values of a list
   std::string at_least_one{};                           ///< what a list consists of that may not be empty: "torque"
   bool distinct = false;                                ///< no value of a list stands twice
+  bool often_assumed = false;                           ///< seldom known: [sensitivity] varies it if nothing is named
   std::vector<std::string> choices{};                   ///< permitted texts; empty: any
   std::vector<std::pair<std::string, double>> words{};  ///< texts for values of a number, in the unit of the file
   std::string meaning{};

@@ -1,13 +1,11 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "app/report/drawings/transverse_section.h"
 #include "app/report/section.h"
 #include "app/scene/scene.h"
-#include "geometry/gear_pair.h"
+#include "geometry/gear.h"
 
 /// What the geometry sections of all kinds share: drawings of the gears to scale and their diameters.
 namespace annulus::app {
@@ -26,11 +24,6 @@ struct NamedGear {
 [[nodiscard]] std::string helical_note(double helix_angle);
 /// What the enlarged teeth show.
 [[nodiscard]] std::string teeth_words(const std::string& planet, const std::string& wheels);
-
-/// Sun and planets of any stage: polar angle of each planet and the angle of its tooth 0, rad.
-void add_sun_and_planets(TransverseSection& section, const Scene& scene, const geometry::GearPair& sun_mesh,
-                         double sun_angle, const std::vector<std::pair<double, double>>& planets,
-                         const std::string& id);
 
 [[nodiscard]] Section geometry_section(const Blocks& blocks);
 /// Anything that can be drawn, as a picture.

@@ -9,6 +9,11 @@ from . import _lumped
 from .scene import Scene
 
 
+def _square(name, meaning):
+    """A matrix over the coordinates, as a data frame."""
+    return property(lambda self: pandas.DataFrame(getattr(self._linear, name), self.dofs, self.dofs), doc=meaning)
+
+
 class Lumped:
     """M q'' + (C + G) q' + (K + K_rotation) q = load, at the operating point, with mean mesh stiffnesses.
 
@@ -30,33 +35,11 @@ class Lumped:
         #: Time after which the excitation repeats, s.
         self.period_s = system.period_in_cycles / system.mesh_frequency_Hz
 
-    def _square(self, matrix):
-        return pandas.DataFrame(matrix, self.dofs, self.dofs)
-
-    @property
-    def M(self):
-        """Mass, kg."""
-        return self._square(self._linear.mass)
-
-    @property
-    def C(self):
-        """Damping with that of the meshes, N s/m."""
-        return self._square(self._linear.damping)
-
-    @property
-    def G(self):
-        """Gyroscopic matrix, skew, N s/m."""
-        return self._square(self._linear.gyroscopic)
-
-    @property
-    def K(self):
-        """Stiffness with the mean tangents of the meshes, N/m."""
-        return self._square(self._linear.stiffness)
-
-    @property
-    def K_rotation(self):
-        """Centripetal and circulatory terms, N/m."""
-        return self._square(self._linear.rotating_stiffness)
+    M = _square("mass", "Mass, kg.")
+    C = _square("damping", "Damping with that of the meshes, N s/m.")
+    G = _square("gyroscopic", "Gyroscopic matrix, skew, N s/m.")
+    K = _square("stiffness", "Stiffness with the mean tangents of the meshes, N/m.")
+    K_rotation = _square("rotating_stiffness", "Centripetal and circulatory terms, N/m.")
 
     @property
     def B(self):

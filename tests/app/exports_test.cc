@@ -251,7 +251,9 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_exported) {
   BOOST_TEST(message("stiffness.csv --to mathlab").find("did you mean matlab?") != std::string::npos);
   BOOST_TEST(message("stiffness.csv --to rexs").find("rexs takes a scene") != std::string::npos);
   BOOST_TEST(message("stage.toml --to simpack").find("takes a table of a run") != std::string::npos);
-  BOOST_TEST(message("stage.toml --to rexs").find("no arc-tooth gears") != std::string::npos);
+  BOOST_TEST(message("stage.toml --to rexs")
+                 .find("REXS does not describe its gears, only those of planetary and helical_pair") !=
+             std::string::npos);
   BOOST_TEST(message("nowhere.csv --to hdf5").find("cannot read nowhere.csv") != std::string::npos);
   BOOST_TEST(message("stiffness.csv --to hdf5 -o nowhere/x.h5").find("cannot write nowhere/x.h5") != std::string::npos);
   BOOST_TEST(message("stiffness.csv --to matlab -o nowhere/x.mat").find("cannot write nowhere/x.mat") !=

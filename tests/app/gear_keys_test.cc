@@ -4,9 +4,9 @@
 
 #include "app/export/rexs.h"
 #include "app/model/gear_system.h"
-#include "app/plan/gear_geometry.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "app/systems/planetary/stage_response.h"
 #include "core/errors.h"
 #include "core/files.h"

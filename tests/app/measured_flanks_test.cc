@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "app/model/gear_system.h"
-#include "app/plan/gear_geometry.h"
 #include "app/plan/plan.h"
 #include "app/run/finished_run.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/units.h"

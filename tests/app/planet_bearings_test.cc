@@ -5,10 +5,10 @@
 #include <numbers>
 #include <string>
 
-#include "app/plan/gear_geometry.h"
 #include "app/systems/planetary/carrier_pins.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_scene.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/stage_warnings.h"

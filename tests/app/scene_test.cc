@@ -8,11 +8,11 @@
 #include <iterator>
 
 #include "app/model/gear_system.h"
-#include "app/plan/gear_geometry.h"
 #include "app/scene/example_scenes.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_schema.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "core/files.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"

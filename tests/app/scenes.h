@@ -3,66 +3,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/files.h"
 #include "tests/temporary_folder.h"
 
 namespace annulus::test {
 
 /// A complete scene with prescribed stiffness: nothing elastic has to be solved. Made of lines that tests replace.
-inline std::string quick_scene() {
-  return R"(title = "Quick"
-[stage]
-kind = "planetary"
-planets = 5
-module_mm = 3.8
-pressure_angle_deg = 22.5
-face_width_mm = 88
-centre_distance_mm = 201
-power_kW = 2958.8
-sun_speed_rpm = 1128
-[material]
-youngs_modulus_GPa = 206
-[sun]
-teeth = 48
-profile_shift = 0.7608
-mass_kg = 66
-inertia_kg_m2 = 0.54895
-[planet]
-teeth = 55
-profile_shift = 0.7361
-mass_kg = 8.51
-inertia_kg_m2 = 0.09282
-[carrier]
-mass_kg = 400.1
-inertia_kg_m2 = 15.3193
-[[ring]]
-name = "held"
-structure = "traditional"
-teeth = 162
-profile_shift = 0.1516
-outside_diameter_mm = 663.6
-mass_kg = 31.25
-inertia_kg_m2 = 2.9606
-[errors]
-planet_eccentricity_um = [15, 36, 17, 38, 19]
-planet_eccentricity_phase_deg = [0, 0, 0, 0, 0]
-[supports]
-sun_N_per_m = 1e7
-planet_N_per_m = 1e9
-[mesh.sun_planet]
-stiffness = "harmonic"
-mean_N_per_m = 1.364e9
-ripple = 0.2258
-[mesh.ring_planet]
-stiffness = "harmonic"
-mean_N_per_m = 1.87e9
-ripple = 0.1294
-[dynamics]
-half_backlash_um = 50
-mesh_damping_ratio = 0.07
-support_damping_ratio = 0.03
-mesh_cycles = 110
-)";
-}
+inline std::string quick_scene() { return read_file(ANNULUS_SOURCE_DIR "/tests/app/quick_scene.toml"); }
 
 /// The errors of the quick scene.
 inline std::string quick_errors() {

@@ -21,10 +21,10 @@
 #include <vector>
 
 #include "app/model/mesh_solve.h"
-#include "app/plan/gear_geometry.h"
 #include "app/plan/mesh_model.h"
 #include "app/scene/scene.h"
 #include "app/systems/planetary/planetary_model.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "benchmarks/calculix/contact_job.h"
 #include "benchmarks/calculix/planet_job.h"
 #include "core/errors.h"

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "app/plan/gear_geometry.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "app/systems/planetary/statics.h"
 #include "benchmarks/calculix/contact_job.h"
 #include "benchmarks/calculix/stage_job.h"

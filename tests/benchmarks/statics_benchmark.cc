@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/model/reuse.h"
-#include "app/plan/gear_geometry.h"
 #include "app/scene/overrides.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "app/systems/planetary/statics.h"
 #include "benchmarks/stopwatch.h"
 #include "core/errors.h"

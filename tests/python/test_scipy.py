@@ -22,7 +22,7 @@ class Motion(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        self.scene = annulus.Scene.load(stage.write(folder.name)).set("dynamics.mesh_damping_ratio", 0.07)
+        self.scene = annulus.Scene.load(stage.write(folder.name))
         self.folder = Path(folder.name)
 
     def test_scipy_reaches_the_steady_state_of_the_program(self):

@@ -10,6 +10,7 @@
 #include "app/results/content_id.h"
 #include "app/scene/example_scenes.h"
 #include "app/systems/helical_pair/pair_lumped_model.h"
+#include "app/systems/helical_pair/pair_rexs.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_scene.h"
 #include "app/systems/helical_pair/pair_space.h"
@@ -100,10 +101,10 @@ class PairSystem final : public GearSystem {
     return {{"pinion", geometry.pinion().base_radius(), speed, torque},
             {"wheel", geometry.wheel().base_radius(), -speed / ratio, torque * ratio}};
   }
+  [[nodiscard]] std::string rexs(const std::string& /*ring*/) const override { return pair_rexs(scene()); }
   [[nodiscard]] std::string coordinates() const override {
-    return "the frame is that of the housing; y along the transverse line of action, x across it, z along the axes; u "
-           "is "
-           "the rotation and tiltx, tilty are the tilts times the base radius; all in m";
+    return "the frame is that of the housing; y along the transverse line of action, x across it, z along the "
+           "axes; u is the rotation and tiltx, tilty are the tilts times the base radius; all in m";
   }
 
   [[nodiscard]] std::optional<dynamics::LumpedCase> rough_lumped() const override {
@@ -189,7 +190,8 @@ SystemKind helical_pair_kind() {
            example_scene("helical_pair").c_str()},
           all_pair_figures,
           pair_study_figures,
-          [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PairSystem>(scene); }};
+          [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PairSystem>(scene); },
+          pair_from_rexs};
 }
 
 }  // namespace annulus::app

@@ -41,12 +41,14 @@ Table pair_gear_table(const char* path, const char* meaning, PairGearInput Scene
     gear.key(name, stiffness, what)
         .fallback(rigid, "rigid: the degree of freedom is dropped")
         .above(0, 1e15)
-        .infinite();
+        .infinite()
+        .often_assumed();
   };
   bearing("bearing_transverse_N_per_m", &PairGearInput::bearing_transverse,
           "Bearings and shaft along the transverse line of action.");
   bearing("bearing_axial_N_per_m", &PairGearInput::bearing_axial, "Axial bearing.");
   gear.key("bearing_damping_ratio", &PairGearInput::damping_ratio, "Damping ratio of its bearings.")
+      .often_assumed()
       .from(0, 2)
       .absent("dynamics.support_damping_ratio");
   return gear.done();

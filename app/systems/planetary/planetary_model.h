@@ -6,8 +6,8 @@
 
 #include "app/model/lumped_model.h"
 #include "app/model/mesh_result.h"
-#include "app/plan/gear_geometry.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/stage_geometry.h"
 
 namespace annulus::app {
 

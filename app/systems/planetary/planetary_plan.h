@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "app/model/stiff_supports.h"
-#include "app/plan/gear_geometry.h"
 #include "app/plan/plan.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::app {

@@ -7,9 +7,9 @@
 
 #include "app/model/mesh_result.h"
 #include "app/model/system_run.h"
-#include "app/plan/gear_geometry.h"
 #include "app/report/section.h"
 #include "app/systems/planetary/coupling_effect.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/tolerance_sharing.h"
 #include "core/json.h"

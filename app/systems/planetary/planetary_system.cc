@@ -14,6 +14,7 @@
 #include "app/scene/example_scenes.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_plan.h"
+#include "app/systems/planetary/planetary_rexs.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/power_flow.h"
@@ -147,12 +148,11 @@ class PlanetarySystem final : public GearSystem {
     return ring_response(scene(), geometry(), ring, run.tables.front(), run.tables.at(ring + 1), options);
   }
 
+  [[nodiscard]] std::string rexs(const std::string& ring) const override { return planetary_rexs(scene(), ring); }
   [[nodiscard]] std::string coordinates() const override {
     return "the frame turns with the carrier; x (towards planet 1 at time 0) and y of sun, ring and carrier, x "
-           "(radial) "
-           "and y (tangential) of each planet, z along the axis; u is the rotation and tiltx, tilty are the tilts "
-           "times "
-           "the base radius, of the carrier times the centre distance; all in m";
+           "(radial) and y (tangential) of each planet, z along the axis; u is the rotation and tiltx, tilty are"
+           " the tilts times the base radius, of the carrier times the centre distance; all in m";
   }
 
   [[nodiscard]] std::vector<TurningBody> turning_bodies() const override {
@@ -245,7 +245,8 @@ SystemKind planetary_kind() {
            example_scene("ring_types").c_str()},
           all_planetary_figures,
           stage_study_figures,
-          [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PlanetarySystem>(scene); }};
+          [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PlanetarySystem>(scene); },
+          planetary_from_rexs};
 }
 
 }  // namespace annulus::app

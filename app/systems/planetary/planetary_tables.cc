@@ -179,7 +179,7 @@ Table supports_table() {
   supports.optional();
   const auto support = [&](const char* name, double SupportInput::*member, double value, const char* why,
                            const char* meaning) {
-    return supports.key(name, member, meaning).fallback(value, why).from(0, 1e15);
+    return supports.key(name, member, meaning).fallback(value, why).from(0, 1e15).often_assumed();
   };
   const auto bearing = [&](const char* name, double SupportInput::*member, const char* meaning) {
     return support(name, member, rigid, "rigid: the degree of freedom is dropped", meaning)
@@ -191,6 +191,7 @@ Table supports_table() {
       .infinite()
       .word("rigid", rigid)
       .word("floating", 0)
+      .often_assumed()
       .absent("no lumped model, a single planet, or a [[bearing]] that holds the sun: rigid")
       .required_if(given("[dynamics]") && !is("stage.planets", {"1"}) && !given("[bearing]"),
                    "it has the largest effect on load sharing; a rigid sun does not equalise the planet loads");
@@ -206,6 +207,7 @@ Table supports_table() {
                          direction == std::string("radial") ? "Radial" : "Tangential"))
         .above(0, 1e15)
         .infinite()
+        .often_assumed()
         .absent("planet_N_per_m");
   supports
       .key("planet_clearance_um", &SupportInput::planet_clearance,
@@ -216,7 +218,8 @@ Table supports_table() {
       .refused_if(given("planet_radial_N_per_m"), "the bearing has one stiffness in all directions")
       .refused_if(given("planet_tangential_N_per_m"), "the bearing has one stiffness in all directions")
       .fallback(0.0, "rollers carry on both sides of the bearing")
-      .from(0, 1000);
+      .from(0, 1000)
+      .often_assumed();
   supports
       .choice(
           "planet_pin", &SupportInput::planet_pin,
@@ -241,7 +244,7 @@ Table supports_table() {
       .needed_if(bends, "the stiffness of the pin follows from it");
   const auto torsional = [&](const char* name, std::optional<double> SupportInput::*member, const char* meaning,
                              const char* absent = "rigid where this member is held, otherwise none: it turns") {
-    supports.key(name, member, meaning).from(0, 1e15).infinite().word("rigid", rigid).absent(absent);
+    supports.key(name, member, meaning).from(0, 1e15).infinite().word("rigid", rigid).often_assumed().absent(absent);
   };
   torsional("ring_torsional_N_per_m", &SupportInput::ring_torsional,
             "Torsional support of the ring, in u = base radius × angle.",

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "app/plan/operating_point.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/operating_point.h"
 
 namespace annulus::app {
 

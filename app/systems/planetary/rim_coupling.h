@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "app/plan/gear_geometry.h"
 #include "app/plan/mesh_model.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "core/csv.h"
 #include "core/ring_coupling.h"
 #include "dynamics/systems/planetary/planetary_stage.h"

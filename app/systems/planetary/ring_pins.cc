@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/plan/gear_geometry.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_schema.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "core/units.h"
 
 namespace annulus::app {

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <optional>
 
-#include "app/plan/gear_geometry.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/model_limits.h"
 #include "app/systems/planetary/ring_pins.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "app/systems/planetary/structure_keys.h"
 #include "core/errors.h"
 #include "core/units.h"

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/plan/gear_geometry.h"
 #include "app/scene/scene_declare.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "fem/problem/ring_structure.h"
 
 /// Ring structures in a scene: their keys, the rules between these, and the structure that the elastic models see.

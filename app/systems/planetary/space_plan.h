@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "app/plan/gear_geometry.h"
 #include "app/plan/plan.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/stage_geometry.h"
 
 /// What the plan of a stage says of its bodies in three dimensions.
 namespace annulus::app {

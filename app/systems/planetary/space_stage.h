@@ -6,9 +6,9 @@
 
 #include "app/model/mesh_result.h"
 #include "app/model/run_options.h"
-#include "app/plan/gear_geometry.h"
 #include "app/plan/warning.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "app/systems/shared/faces.h"
 #include "dynamics/systems/planetary/spatial_stage.h"
 #include "fem/solid_face.h"

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "app/model/mesh_result.h"
-#include "app/plan/gear_geometry.h"
 #include "app/results/content_id.h"
 #include "app/scene/scene.h"
 #include "app/systems/planetary/propagated_errors.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "app/systems/planetary/stage_modes.h"
 #include "app/systems/planetary/stage_motion.h"
 #include "core/csv.h"

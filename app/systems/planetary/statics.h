@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "app/model/run_options.h"
-#include "app/plan/gear_geometry.h"
 #include "app/plan/warning.h"
 #include "app/report/section.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "core/figure.h"
 #include "core/json.h"
 #include "dynamics/systems/planetary/stage_statics.h"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/model/mesh_result.h"
-#include "app/plan/gear_geometry.h"
 #include "app/plan/warning.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "core/figure.h"
 #include "core/json.h"
 #include "dynamics/systems/planetary/sharing_tolerances.h"

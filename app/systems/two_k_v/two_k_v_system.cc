@@ -78,10 +78,9 @@ class TwoKVSystem final : public GearSystem {
   }
 
   [[nodiscard]] std::string coordinates() const override {
-    return "the frame turns with the output carrier; x of cranks and arc gears across their eccentricities; u is the "
-           "rotation times a radius: the base radius of input, sun and planets, the eccentricity of cranks, the radius "
-           "of "
-           "the crank circle of arc gears and output; all in m";
+    return "the frame turns with the output carrier; x of cranks and arc gears across their eccentricities; u is"
+           " the rotation times a radius: the base radius of input, sun and planets, the eccentricity of cranks,"
+           " the radius of the crank circle of arc gears and output; all in m";
   }
 
   [[nodiscard]] std::vector<TurningBody> turning_bodies() const override {

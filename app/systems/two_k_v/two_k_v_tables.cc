@@ -12,13 +12,13 @@ Condition with_dynamics() { return given("[dynamics]"); }
 template <class Section>
 void declare_stiffness(Declarations<Section>& t, const char* name, std::optional<double> Section::*member,
                        const char* meaning) {
-  t.key(name, member, meaning).above(0, 1e14).required_if(with_dynamics());
+  t.key(name, member, meaning).above(0, 1e14).required_if(with_dynamics()).often_assumed();
 }
 
 template <class Section>
-void declare_damping(Declarations<Section>& t, const char* name, std::optional<double> Section::*member,
-                     const std::string& of) {
-  t.key(name, member, "Damping ratio of " + of + ".")
+Declared declare_damping(Declarations<Section>& t, const char* name, std::optional<double> Section::*member,
+                         const std::string& of) {
+  return t.key(name, member, "Damping ratio of " + of + ".")
       .from(0, 2)
       .only_if(with_dynamics())
       .absent("dynamics.support_damping_ratio");
@@ -54,13 +54,16 @@ Table crank_table() {
                      "The crank shafts, one per planet. They turn in bearings of the output carrier; their eccentrics "
                      "carry the arc gears. planet.mass_kg is the mass of a planet with its shaft.",
                      &Scene::crank);
-  declare_inertia(crank, "Moment of inertia of one shaft without its planet.").required_if(with_dynamics());
+  declare_inertia(crank, "Moment of inertia of one shaft without its planet.")
+      .required_if(with_dynamics())
+      .often_assumed();
   declare_stiffness(crank, "shaft_Nm_per_rad", &CrankInput::shaft,
                     "Torsional stiffness of one shaft between planet and eccentrics.");
   declare_stiffness(crank, "bearing_N_per_m", &CrankInput::bearing,
                     "Stiffness of one shaft's bearings in the carrier, along the circle of the cranks.");
   declare_damping(crank, "shaft_damping_ratio", &CrankInput::shaft_damping, "the shafts between planet and eccentrics");
-  declare_damping(crank, "bearing_damping_ratio", &CrankInput::bearing_damping, "the bearings in the carrier");
+  declare_damping(crank, "bearing_damping_ratio", &CrankInput::bearing_damping, "the bearings in the carrier")
+      .often_assumed();
   crank
       .key("angle_deg", &CrankInput::angle,
            "Direction of the first arc gear's eccentric at time 0, from the line of centres to the first crank.")
@@ -101,11 +104,13 @@ Table arc_gear_table() {
              "Formula for the approach of pin and arc under load. handbook: Roark, 2/3 + ln(...), as in gear "
              "handbooks; johnson: Hertz pressure, with the depth to the centres of curvature.")
       .fallback("handbook", "the formula of the paper");
-  declare_mass(arc, "Mass of one arc gear.");
-  declare_inertia(arc, "Moment of inertia of one arc gear about its axis.").required_if(with_dynamics());
+  declare_mass(arc, "Mass of one arc gear.").often_assumed();
+  declare_inertia(arc, "Moment of inertia of one arc gear about its axis.")
+      .required_if(with_dynamics())
+      .often_assumed();
   declare_stiffness(arc, "bearing_N_per_m", &ArcGearInput::bearing,
                     "Stiffness of an arc gear's bearing on one eccentric, any direction.");
-  declare_damping(arc, "bearing_damping_ratio", &ArcGearInput::bearing_damping, "these bearings");
+  declare_damping(arc, "bearing_damping_ratio", &ArcGearInput::bearing_damping, "these bearings").often_assumed();
   return arc.done();
 }
 
@@ -113,7 +118,8 @@ Table input_shaft_table() {
   Declarations input("input", "The input shaft with all parts that turn with it; it drives the sun.", &Scene::input);
   input.optional();
   declare_inertia(input, "Moment of inertia, motor included.")
-      .required_if(with_dynamics(), "times the ratio squared it determines the lowest frequency");
+      .required_if(with_dynamics(), "times the ratio squared it determines the lowest frequency")
+      .often_assumed();
   declare_stiffness(input, "shaft_Nm_per_rad", &InputShaftInput::shaft,
                     "Torsional stiffness of the shaft between input and sun.");
   input
@@ -121,7 +127,8 @@ Table input_shaft_table() {
            "Torsional support of the input in the housing; inf: fixed.")
       .fallback(0.0, "free: it transmits the power")
       .from(0, 1e14)
-      .infinite();
+      .infinite()
+      .often_assumed();
   declare_damping(input, "damping_ratio", &InputShaftInput::damping, "its shaft and its support");
   return input.done();
 }
@@ -131,13 +138,15 @@ Table output_table() {
   output.key("torque_Nm", &OutputInput::torque, "Load on the output.").required().above(0, 1e9);
   output.key("speed_rpm", &OutputInput::speed, "Speed of the output.").required().above(0, 1e6);
   declare_inertia(output, "Moment of inertia of the carrier and all parts that turn with it.")
-      .required_if(with_dynamics());
+      .required_if(with_dynamics())
+      .often_assumed();
   output
       .key("support_Nm_per_rad", &OutputInput::support,
            "Torsional support of the output against its steady rotation; inf: fixed to this rotation, 0: free.")
       .required()
       .from(0, 1e14)
-      .infinite();
+      .infinite()
+      .often_assumed();
   declare_damping(output, "damping_ratio", &OutputInput::damping, "its support");
   return output.done();
 }

@@ -3,8 +3,8 @@
 #include <limits>
 #include <vector>
 
-#include "app/plan/gear_geometry.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "core/csv.h"
 #include "core/units.h"
 #include "tests/verification/outside_cases/outside_case.h"

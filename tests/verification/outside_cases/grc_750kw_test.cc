@@ -2,8 +2,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/plan/gear_geometry.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "tests/verification/outside_cases/outside_case.h"
 #include "tests/verification_record.h"
 

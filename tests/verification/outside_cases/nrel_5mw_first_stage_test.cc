@@ -8,8 +8,8 @@
 #include <numbers>
 #include <set>
 
-#include "app/plan/gear_geometry.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/stage_geometry.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/files.h"

@@ -2,6 +2,7 @@
 
 #include "app/report/drawings/dimension.h"
 #include "app/report/drawings/teeth.h"
+#include "app/report/drawings/transverse_section.h"
 #include "app/sections/geometry_parts.h"
 #include "app/systems/helical_pair/report/pair_report_parts.h"
 #include "core/units.h"

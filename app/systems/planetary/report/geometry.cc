@@ -10,6 +10,7 @@
 #include "app/sections/geometry_parts.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/systems/planetary/ring_structures.h"
+#include "app/systems/shared/sun_and_planets.h"
 #include "geometry/gear_places.h"
 
 namespace annulus::app {

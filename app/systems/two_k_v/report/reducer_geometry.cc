@@ -6,6 +6,7 @@
 #include "app/report/drawings/dimension.h"
 #include "app/report/drawings/teeth.h"
 #include "app/sections/geometry_parts.h"
+#include "app/systems/shared/sun_and_planets.h"
 #include "app/systems/two_k_v/report/reducer_report_parts.h"
 #include "geometry/gear_places.h"
 #include "geometry/pin_gear_outline.h"

@@ -1,4 +1,4 @@
-#include "app/plan/operating_point.h"
+#include "app/systems/planetary/operating_point.h"
 
 #include <cmath>
 #include <numbers>
