@@ -4,6 +4,7 @@
 #   scripts/install_packages.sh --tests      for scripts/test.sh too
 #   scripts/install_packages.sh --all        for scripts/test.sh --all too (twice as much)
 #   scripts/install_packages.sh --nightly    for scripts/nightly.sh too
+#   scripts/install_packages.sh --site       for scripts/site.sh alone
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -21,15 +22,18 @@ tests=(python3 python3-jsonschema clang-format
 all=(
   calculix-ccx octave    # benchmarks compare with them
   python3-h5py chromium  # they read exports and reports
-  python3-scipy python3-matplotlib python3-nbclient python3-ipykernel  # of the notebooks
+)
+site=(mkdocs mkdocs-material doxygen cpio
+  python3-scipy python3-matplotlib python3-nbconvert python3-ipykernel  # of the notebooks
 )
 npm_packages=()
 nightly=(clang libclang-rt-dev libomp-dev clang-tidy valgrind)
 case "${1:-}" in
   "") ;;
   --tests) packages+=("${tests[@]}") ;;
-  --all) packages+=("${tests[@]}" "${all[@]}"); npm_packages=(axe-core@4.14.1 @taplo/cli@0.7.0) ;;
-  --nightly) packages+=("${tests[@]}" "${all[@]}" "${nightly[@]}"); npm_packages=(axe-core@4.14.1 @taplo/cli@0.7.0) ;;
+  --site) packages+=("${site[@]}") ;;
+  --all) packages+=("${tests[@]}" "${all[@]}" "${site[@]}"); npm_packages=(axe-core@4.14.1 @taplo/cli@0.7.0) ;;
+  --nightly) packages+=("${tests[@]}" "${all[@]}" "${site[@]}" "${nightly[@]}"); npm_packages=(axe-core@4.14.1 @taplo/cli@0.7.0) ;;
   *) echo "install_packages.sh: unknown option $1" >&2; exit 2 ;;
 esac
 
