@@ -73,6 +73,16 @@ BOOST_AUTO_TEST_CASE(losses_of_a_solved_stage) {
   BOOST_TEST(outcome.out.find("Efficiency of the meshes, %") != std::string::npos, outcome.out);
 }
 
+// Friction carries a part of the torque: the teeth press on each other with less than its force, and nothing is amiss.
+BOOST_AUTO_TEST_CASE(much_friction_is_no_lack_of_torque) {
+  const test::TemporaryFolder folder("annulus_friction");
+  write_file(folder.path() / "scene.toml",
+             "accuracy = 0.01\nmodel = \"closed_form\"\n" + test::small_stage() + "[friction]\ncoefficient = 0.12\n");
+  const auto outcome = test::run_program(folder.path(), "run scene.toml -o out");
+  BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
+  BOOST_TEST(test::stated_results(folder.path() / "out").at("sun_planet_peak_factor").value > 1);
+}
+
 // With a prescribed stiffness tooth pairs share the load evenly, which the run says. More friction loses more.
 BOOST_AUTO_TEST_CASE(losses_of_prescribed_meshes) {
   const test::TemporaryFolder folder("annulus_friction");
