@@ -36,7 +36,7 @@ Eigen::VectorXcd floquet_multipliers(const LumpedSystem& system, const Eigen::Ve
   state.bottomLeftCorner(moving, elastic) = -swift.transpose() * stiffness * bent / (w * w);
   state.bottomRightCorner(moving, moving) = -swift.transpose() * damping * swift / w;
   // Impulses further apart than half a cycle of a mode act on it as on a slower one, which makes it grow or not.
-  constexpr double fine = 1, most_steps = 1 << 15;
+  constexpr double fine = 1, most_steps = 1 << 14;
   const double phase = w * period / static_cast<double>(samples);
   const int parts =
       std::max(1, static_cast<int>(std::ceil(std::min(phase / fine, most_steps / static_cast<double>(samples)))));

@@ -79,7 +79,8 @@ struct SimulationOptions {
   /// Upper limit of the window (memory). Error periods may be tens of thousands of mesh
   /// cycles (see the error_period of a system). A window cut by this limit cannot be compared with the one before.
   int max_window_cycles = 2000;
-  /// Integrates the last window again with a tolerance ten times looser, which estimates the error of the integrator.
+  /// Integrates the last window again with a tolerance ten times looser, fixed steps with half of them: an estimate of
+  /// the error of the integrator.
   bool estimate_error = true;
   MotionSearch other_motions;  ///< looked for where reach_of_backlash() exceeds `within_reach`
 
@@ -169,7 +170,7 @@ struct SteadyResponse : SteadyOutcome {
   /// where the harmonic balance stands alone (see PeriodicWindows::compared), or the window before. Absent when there
   /// is none.
   std::optional<ResponseWindow> before;
-  std::optional<ResponseWindow> loose;  ///< `best` under a ten times looser integration
+  std::optional<ResponseWindow> loose;  ///< `best` under a looser integration, or one of half the fixed steps
 };
 
 /// Periodic steady state of any system. A periodic solution (see SteadyState) is confirmed by time integration over one

@@ -25,7 +25,7 @@ struct Rotor {
   std::vector<Ripple> ripples{};
 };
 
-/// A body of a gear set, or one of several such bodies, to which shafts may lead: its DOF <name>_u is radius x
+/// A body of a gear set, or one of several such bodies, to which shafts may lead: its DOF NAME_u is radius x
 /// rotation.
 struct ShaftEnd {
   std::string name;       ///< without number
@@ -47,8 +47,8 @@ struct Turning {
 /// N, of a torque (N m) at a radius (m), which need not be known without torque.
 [[nodiscard]] inline double force_at(double radius, double torque) { return torque == 0 ? 0 : torque / radius; }
 
-/// The system with rotors, whose shafts lead to its bodies one behind the other. DOFs <rotor>_u = radius of the body x
-/// rotation, behind those of the system; elements <rotor>_shaft behind its meshes, N along u, positive where they pass
+/// The system with rotors, whose shafts lead to its bodies one behind the other. DOFs ROTOR_u = radius of the body x
+/// rotation, behind those of the system; elements ROTOR_shaft behind its meshes, N along u, positive where they pass
 /// on the torque of the body. That torque (ShaftEnd::load) acts on the last rotor instead. Ripples of
 /// rotors that do not turn are left out. Without rotors the system itself.
 ///

@@ -168,6 +168,25 @@ BOOST_AUTO_TEST_CASE(jumps_are_confirmed_by_time_integration) {
   BOOST_TEST(simulate(stage, options).total_cycles == 0);
 }
 
+// Just stable: steps of twice the length, which would show their error too, are not.
+BOOST_AUTO_TEST_CASE(fixed_steps_near_their_limit_have_an_error) {
+  SimulationOptions options;
+  options.steady_state = SteadyState::time_integration;
+  options.samples_per_cycle = 8;
+  options.integrator.method = Integrator::runge_kutta_4;
+  options.integrator.fixed_step = 1 / (8 * frequency);
+  const auto coarse = dynamics::steady_response(swinging(0, 1000), problem, options);
+  BOOST_TEST_REQUIRE(coarse.loose.has_value());
+  const double stated = (coarse.loose->force - coarse.best.force).cwiseAbs().maxCoeff();
+  options.integrator.fixed_step /= 100;
+  const auto fine = dynamics::steady_response(swinging(0, 1000), problem, options);
+  const auto cycle = [](const SteadyResponse& r) -> Eigen::MatrixXd { return r.best.force.rightCols(8); };
+  const double actual = (cycle(coarse) - cycle(fine)).cwiseAbs().maxCoeff();
+  BOOST_TEST(actual > 0);
+  BOOST_TEST(actual < 1.5 * stated);
+  BOOST_TEST(actual > 0.5 * stated);
+}
+
 BOOST_AUTO_TEST_CASE(unusable_problems_are_refused) {
   const auto system = swinging(0, 1000);
   const auto refused = [&](const SteadyProblem& p) {
