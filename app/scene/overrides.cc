@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "app/scene/key_path.h"
 
 namespace annulus::app {
 
@@ -47,13 +48,6 @@ std::vector<std::string> all_paths(const Scene& scene) {
   return paths;
 }
 
-/// "key[index]" in its parts.
-std::pair<std::string, std::optional<std::string>> split(const std::string& path) {
-  const auto bracket = path.find('[');
-  if (bracket == std::string::npos || !path.ends_with(']')) return {path, std::nullopt};
-  return {path.substr(0, bracket), path.substr(bracket + 1, path.size() - bracket - 2)};
-}
-
 InputError unknown(const Scene& scene, const std::string& path, const std::string& key) {
   const auto* known = find_parameter(key);
   if (known && applies(scene, *known))
@@ -91,15 +85,6 @@ std::vector<std::size_t> find_tables(const Scene& scene, const std::string& path
   return found;
 }
 
-/// From 0. `meaning`: of the index, for messages.
-std::size_t parse_index(const std::string& path, const std::string& text, std::size_t length, const char* meaning) {
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size() || number < 1 || number > length)
-    throw InputError(fmt::format("{}: [{}] must be a number from 1 to {}{}", path, text, length, meaning));
-  return number - 1;
-}
-
 /// Lists that default to one value per planet; others have as many as teeth, pins or whatever they list.
 bool has_one_per_planet(const Parameter& p) {
   return p.table == "errors" && p.presence == Parameter::Presence::defaulted;
@@ -108,7 +93,7 @@ bool has_one_per_planet(const Parameter& p) {
 }  // namespace
 
 InputTarget find_input(const Scene& scene, const std::string& path) {
-  auto [key, index] = split(path);
+  auto [key, index] = split_path(path);
   InputTarget target;
   const auto* table = find_table(key.substr(0, key.find('.')), schema(scene.stage.kind));
   if (table != nullptr && table->repeated && !is_study_table(table->path))
@@ -144,7 +129,7 @@ std::optional<double> input_value(const Scene& scene, const InputTarget& target,
 }
 
 std::vector<std::string> expand_planets(const Scene& scene, const std::string& path) {
-  const auto [key, index] = split(path);
+  const auto [key, index] = split_path(path);
   if (index != "*") return {path};
   std::vector<std::string> paths;
   const auto* p = find_parameter(key);

@@ -59,9 +59,9 @@ struct InputTarget {
 /// The scene with another wanted accuracy, studies and assumptions included; `note` says where it comes from.
 [[nodiscard]] Scene with_accuracy(const Scene& scene, double accuracy, const std::string& note);
 
-/// The scene of a file with other values, each "key = value" as `--set` takes it: a key path as above (without an
-/// index) and a value as in a scene file; a word that is none is a text. Throws InputError for a setting that names no
-/// key, and what reading a scene throws.
+/// The scene of a file with other values, each "key = value" as `--set` takes it: a key path as above (an
+/// index: in a list that the scene has) and a value as in a scene file; a word that is none is a text. Throws
+/// InputError for a setting that names no key, and what reading a scene throws.
 [[nodiscard]] Scene read_scene_with(const std::filesystem::path& file, const std::vector<std::string>& settings);
 
 /// The same scene as the text of a file. Comments are lost.

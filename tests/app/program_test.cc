@@ -161,6 +161,14 @@ BOOST_AUTO_TEST_CASE(settings_change_a_scene) {
   BOOST_TEST(test::run_program(folder.path(), "check scene.toml --set stage.power_kW=-1").status == 2);
   BOOST_TEST(test::run_program(folder.path(), "check scene.toml --set ring.held.teeth=162").status == 0);
   BOOST_TEST(test::run_program(folder.path(), "check scene.toml --set ring.other.teeth=162").status == 2);
+  // One value of a list.
+  const std::string list = "errors.planet_eccentricity_um";
+  const auto entry = test::run_program(folder.path(), "new --scene scene.toml --set '" + list + "[2]=30'");
+  BOOST_TEST(entry.out.find("planet_eccentricity_um = [ 15, 30, 17, 38, 19 ]") != std::string::npos, entry.out);
+  const auto beyond = test::run_program(folder.path(), "check scene.toml --set '" + list + "[6]=30'");
+  BOOST_TEST(beyond.status == 2);
+  BOOST_TEST(beyond.err.find("[6] must be a number from 1 to 5") != std::string::npos, beyond.err);
+  BOOST_TEST(test::run_program(folder.path(), "check scene.toml --set 'stage.power_kW[1]=3'").status == 2);
 }
 
 BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {

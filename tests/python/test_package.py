@@ -52,6 +52,8 @@ class Scenes(WithStage):
         self.assertEqual(tables["errors"]["planet_eccentricity_um"], [1, 2.5, 3, 4, 5])
         self.assertEqual(tables["supports"]["sun_N_per_m"], "floating")
         self.assertRaises(TypeError, self.scene.set, "accuracy", object())
+        one = other.set("errors.planet_eccentricity_um[4]", 0.5)
+        self.assertEqual(one.tables()["errors"]["planet_eccentricity_um"], [1, 2.5, 3, 0.5, 5])
 
     def test_a_saved_scene_is_the_same(self):
         copy = self.folder / "copy.toml"

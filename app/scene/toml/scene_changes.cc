@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "app/scene/key_path.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene_schema.h"
 #include "app/scene/toml/values.h"
@@ -102,11 +103,6 @@ Scene with_accuracy(const Scene& scene, double accuracy, const std::string& note
 
 namespace {
 
-/// Puts the value of a TOML key `x` under a name.
-void put(toml::table& table, const std::string& name, const toml::table& value) {
-  value.get("x")->visit([&](const auto& node) { table.insert_or_assign(name, node); });
-}
-
 toml::table value_of_setting(const std::string& text) {
   try {
     return toml::parse("x = " + text);
@@ -117,6 +113,19 @@ toml::table value_of_setting(const std::string& text) {
 
 [[noreturn]] void refuse_setting(const std::string& setting, const std::string& why) {
   throw InputError("--set " + setting + ": " + why);
+}
+
+/// Puts the value of a TOML key `x` under a name, or into its list where the name has an index: "mass_kg", "angles[2]".
+void put(toml::table& table, const KeyPath& key, const toml::table& value, const std::string& setting) {
+  const auto& node = *value.get("x");
+  if (!key.index) {
+    node.visit([&](const auto& found) { table.insert_or_assign(key.key, found); });
+    return;
+  }
+  auto* list = table[key.key].as_array();
+  if (list == nullptr) refuse_setting(setting, "the scene has no such list; set all its values");
+  const auto place = parse_index("--set " + setting, *key.index, list->size());
+  node.visit([&](const auto& found) { list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(place), found); });
 }
 
 /// The array of tables with names that a path begins with; null where it is another table.
@@ -138,14 +147,14 @@ void apply_setting(toml::table& root, const std::string& setting) {
   const auto path = trimmed(setting.substr(0, equal)), text = trimmed(setting.substr(equal + 1));
   const auto value = value_of_setting(text);
   const auto dot = path.rfind('.');
-  const auto name = dot == std::string::npos ? path : path.substr(dot + 1);
+  const auto name = split_path(dot == std::string::npos ? path : path.substr(dot + 1));
   auto head = dot == std::string::npos ? std::string() : path.substr(0, dot);
   // [[ring]], [[bearing]]: of all tables, or of the one that is named.
   const auto* array = named_array(head);
   const auto table_name =
       array != nullptr && head.size() > array->path.size() ? head.substr(array->path.size() + 1) : std::string();
   if (array != nullptr) head = array->path;
-  const auto key = head.empty() ? name : head + "." + name;
+  const auto key = head.empty() ? name.key : head + "." + name.key;
   if (!find_parameter(key)) refuse_setting(setting, "there is no such key" + did_you_mean(key, all_keys()));
   const auto* declared = find_table(head);
   if (array != nullptr) {
@@ -154,7 +163,7 @@ void apply_setting(toml::table& root, const std::string& setting) {
     for (std::size_t i = 0; tables != nullptr && i < tables->size(); ++i) {
       auto* table = tables->get(i)->as_table();
       if (table == nullptr || (!table_name.empty() && (*table)["name"].value_or(std::string()) != table_name)) continue;
-      put(*table, name, value);
+      put(*table, name, value, setting);
       found = true;
     }
     if (!found) refuse_setting(setting, fmt::format("the scene has no such [[{}]]", head));
@@ -168,7 +177,7 @@ void apply_setting(toml::table& root, const std::string& setting) {
     table = table->get(part)->as_table();
     if (table == nullptr) refuse_setting(setting, part + " is no table in the scene");
   }
-  put(*table, name, value);
+  put(*table, name, value, setting);
 }
 
 }  // namespace

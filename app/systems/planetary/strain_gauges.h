@@ -10,6 +10,7 @@
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_schema.h"
 #include "core/json.h"
+#include "geometry/planetary.h"
 
 /// Strain gauges on the ring: where the scene puts them, and what they show over a revolution of the carrier.
 namespace annulus::app {
