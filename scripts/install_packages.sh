@@ -23,7 +23,7 @@ all=(
   calculix-ccx octave    # benchmarks compare with them
   python3-h5py chromium  # they read exports and reports
 )
-site=(mkdocs mkdocs-material doxygen cpio
+site=(mkdocs mkdocs-material doxygen
   python3-scipy python3-matplotlib python3-nbconvert python3-ipykernel  # of the notebooks
 )
 npm_packages=()

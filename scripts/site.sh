@@ -18,7 +18,8 @@ mkdir -p "$source/live" "$source/notebooks"
 
 # Documents and what they refer to, each in its place.
 cp -r README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff docs data "$source"
-find core geometry fem dynamics app examples tests -name '*.h' -o -name ring_stiffness.cc -o -name README.md | cpio -pdm --quiet "$source"
+find core geometry fem dynamics app examples tests -name '*.h' -o -name ring_stiffness.cc -o -name README.md |
+  tar -c -T - | tar -x -C "$source"
 
 # Reports as a run writes them, with their pictures.
 runs=(data/scenes/minimal.toml data/scenes/ring_types.toml data/cases/car_splined_ring/five_planets.toml
