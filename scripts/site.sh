@@ -12,6 +12,8 @@ if [ -z "${ANNULUS:-}" ]; then
   cmake --build --preset release
   export ANNULUS=$PWD/build/release/app/annulus PYTHONPATH=$PWD/build/release/python
 fi
+ANNULUS=$(realpath "$(command -v "$ANNULUS")")
+/usr/bin/python3 -c 'import annulus' || { echo "site.sh: PYTHONPATH has to name the folder of the package" >&2; exit 1; }
 source=$site/source
 rm -rf "$source" "$site/html"
 mkdir -p "$source/live" "$source/notebooks"
@@ -31,10 +33,10 @@ for scene in "${runs[@]}"; do
   mkdir "$source/live/$name"
   cp -r "$site/runs/$name"/{report.html,pictures} "$source/live/$name"
 done
-/usr/bin/python3 scripts/site_gallery.py "$site/runs" >"$source/gallery.md"
+/usr/bin/python3 scripts/site_gallery.py "$site/runs" "${runs[@]}" >"$source/gallery.md"
 
 /usr/bin/python3 -m nbconvert --to markdown --execute --log-level ERROR --output-dir "$source/notebooks" python/notebooks/*.ipynb
-(cat docs/Doxyfile; echo "OUTPUT_DIRECTORY = $source/reference") | doxygen -
+(cat docs/Doxyfile; echo "OUTPUT_DIRECTORY = \"$source/reference\"") | doxygen -
 
 ANNULUS_SITE_SOURCE=$source mkdocs build --strict --quiet --site-dir "$site/html"
 echo "The site: $site/html/index.html"

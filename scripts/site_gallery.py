@@ -1,6 +1,6 @@
 """Pictures of finished runs as a page of the documentation site.
 
-    site_gallery.py RUNS     RUNS/<name> are results folders, which the site has as live/<name>
+    site_gallery.py RUNS SCENE...     RUNS/<name of scene> are results folders, which the site has as live/<name>
 """
 
 import json
@@ -9,7 +9,7 @@ import xml.etree.ElementTree
 from pathlib import Path
 
 print("# Gallery\n\nPictures of finished runs. Each report is a page by itself, as `annulus run` writes it.")
-for run in sorted(Path(sys.argv[1]).iterdir()):
+for run in (Path(sys.argv[1]) / Path(scene).stem for scene in sys.argv[2:]):
     summary = json.loads((run / "summary.json").read_text(encoding="utf-8"))
     print(f"\n## {summary['title']}\n\n[The whole report](live/{run.name}/report.html)\n")
     shown = set()

@@ -29,7 +29,7 @@ struct ExportFormat {
 /// Writes `source` in `format`; `out` empty: beside the source, with the format's ending; `ring` chooses one of a scene
 /// with several. Returns what was written.
 ///
-///     stiffness_<mesh>.csv       all formats but rexs
+///     stiffness_<mesh>.csv       all formats but rexs, mtx and png
 ///     ring_compliance.csv        csv, hdf5, matlab: the compliance and the stiffness matrix of the ring
 ///     other tables of a run      csv, hdf5, matlab: a vector per column
 ///     a scene (.toml)            rexs; hdf5, matlab, mtx: the matrices of its lumped system

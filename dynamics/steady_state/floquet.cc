@@ -36,13 +36,20 @@ Eigen::VectorXcd floquet_multipliers(const LumpedSystem& system, const Eigen::Ve
   state.bottomLeftCorner(moving, elastic) = -swift.transpose() * stiffness * bent / (w * w);
   state.bottomRightCorner(moving, moving) = -swift.transpose() * damping * swift / w;
   // Impulses further apart than half a cycle of a mode act on it as on a slower one, which makes it grow or not.
-  constexpr double fine = 1, most_steps = 1 << 14;
-  const double phase = w * period / static_cast<double>(samples);
-  const int parts =
-      std::max(1, static_cast<int>(std::ceil(std::min(phase / fine, most_steps / static_cast<double>(samples)))));
+  constexpr double fine = 1;
+  constexpr Eigen::Index most_steps = 4096;
+  const double needed = w * period / fine / static_cast<double>(samples);
+  const auto affordable = static_cast<double>(std::max<Eigen::Index>(1, most_steps / samples));
+  const int parts = static_cast<int>(std::ceil(std::clamp(needed, 1.0, affordable)));
   const double step = period / static_cast<double>(samples * parts);
   const Eigen::MatrixXd drift = exponential(state * (w * step));
-  const Eigen::MatrixXd of_displacement = b.transpose() * bent, of_velocity = b.transpose() * swift;
+  Eigen::MatrixXd of_displacement = b.transpose() * bent, of_velocity = b.transpose() * swift;
+  // Modes so fast feel the mean alone: hundreds of vibrations in a mesh cycle are in no resonance with it.
+  for (Eigen::Index mode = free; mode < n && needed > affordable; ++mode) {
+    if (2 * std::numbers::pi * found.modes[static_cast<std::size_t>(mode)].frequency * step <= fine) continue;
+    of_displacement.col(mode - free).setZero();
+    of_velocity.col(mode - loose).setZero();
+  }
   // Changes of the mesh forces with approaches and rates, beyond those of the constant stiffness and damping.
   std::vector<Eigen::MatrixXd> tangent(static_cast<std::size_t>(samples), Eigen::MatrixXd(count, count));
   Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(samples, count), force(samples, count), damper = meshes.damping();

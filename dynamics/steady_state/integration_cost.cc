@@ -176,8 +176,9 @@ double integration_seconds(const LumpedSystem& system, double mesh_frequency, do
 SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, int period,
                            const SimulationOptions& options, StiffnessCourse course) {
   constexpr double unsteady_comparison = 170, few_windows = 3;
-  const double looser =
-      options.estimate_error ? std::pow(10, -1.0 / 5) : 0;  // of a window, with ten times the tolerance
+  // Of a window, with ten times the tolerance or half the fixed steps.
+  const double again = options.integrator.fixed_step > 0 ? 2 : std::pow(10, -1.0 / 5);
+  const double looser = options.estimate_error ? again : 0;
   const WindowLength length = window_length(period, options);
   const int window = length.cycles;
   if (options.mesh_cycles) {

@@ -31,7 +31,8 @@ class Scene:
     """A scene of annulus. It does not change: `set` makes another one.
 
     Keys are paths as `annulus run --set` takes them: "accuracy", "supports.sun_N_per_m", "ring.pins" (of every ring that
-    gives it), "ring.pinned.pins" (of the ring 'pinned'), "errors.planet_eccentricity_um[2]" (of planet 2).
+    gives it), "ring.pinned.pins" (of the ring 'pinned'), "errors.planet_eccentricity_um[2]" (of planet 2, in a list that
+    the scene has).
     `annulus.explain(key)` says what a key means.
     """
 

@@ -55,7 +55,7 @@ def dead_links(folder):
             anchor = unquote(url.fragment)
             if not target.is_file():
                 dead.append(f"{file.relative_to(folder)}: {link} is not there")
-            elif anchor and target in pages and "reference" not in target.parts and anchor not in pages[target].anchors:
+            elif anchor and target in pages and "reference" not in target.relative_to(folder).parts and anchor not in pages[target].anchors:
                 dead.append(f"{file.relative_to(folder)}: {link} has no such anchor")
     dead += [f"{file.relative_to(folder)}: is no whole drawing" for file in folder.rglob("*.svg") if not is_whole(file)]
     return dead, followed

@@ -123,7 +123,9 @@ void put(toml::table& table, const KeyPath& key, const toml::table& value, const
     return;
   }
   auto* list = table[key.key].as_array();
-  if (list == nullptr) refuse_setting(setting, "the scene has no such list; set all its values");
+  if (list == nullptr)
+    refuse_setting(setting, table.contains(key.key) ? "is one value, not a list"
+                                                    : "the scene has no such list; set it as a whole first");
   const auto place = parse_index("--set " + setting, *key.index, list->size());
   node.visit([&](const auto& found) { list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(place), found); });
 }

@@ -11,7 +11,7 @@ std::string pair_rexs(const Scene& scene) {
   const auto geometry = make_pair_geometry(scene);
   RexsWriter rexs(scene);
   auto unit = rexs.component("gear_unit", scene.title);
-  rexs.custom_attributes(unit, {"stage", "errors", "supports", "dynamics", "mesh.pinion_wheel"});
+  rexs.custom_attributes(unit, {"stage", "errors", "dynamics", "mesh.pinion_wheel"});
   auto pinion = rexs.gear("pinion", scene.pinion, geometry.pinion());
   auto wheel = rexs.gear("wheel", scene.wheel, geometry.wheel());
   rexs.custom_attributes(pinion, {"pinion"});
