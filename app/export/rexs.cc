@@ -4,7 +4,6 @@
 
 #include "app/model/gear_system.h"
 #include "app/rexs/rexs_reader.h"
-#include "app/rexs/rexs_writer.h"
 #include "core/errors.h"
 
 namespace annulus::app {

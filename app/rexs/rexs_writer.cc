@@ -32,8 +32,7 @@ bool known_to_rexs(const std::string& key) {
                                       "stage.centre_distance_mm",
                                       "material.youngs_modulus_GPa",
                                       "material.poisson_ratio",
-                                      "material.density_kg_per_m3",
-                                      "carrier.mass_kg"};
+                                      "material.density_kg_per_m3"};
   if (std::find(std::begin(known), std::end(known), key) != std::end(known)) return true;
   for (const char* name : {".face_width_mm", ".name", ".teeth", ".profile_shift", ".mass_kg", ".tip_diameter_mm",
                            ".root_diameter_mm", ".youngs_modulus_GPa", ".poisson_ratio", ".density_kg_per_m3"})

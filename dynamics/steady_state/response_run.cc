@@ -127,7 +127,7 @@ void ResponseRun::pass_jump() {
   if (std::isfinite(next)) system_.hold_waves((state_.time + next) / 2, workspace_);
 }
 
-void ResponseRun::loosen(double factor) {
+void ResponseRun::change_accuracy(double factor) {
   // At most a tenth: with a looser tolerance the comparison would mean little.
   integrator_.relative_tolerance = std::min(0.1, integrator_.relative_tolerance * factor);
   *integrator_.absolute_tolerance *= factor;

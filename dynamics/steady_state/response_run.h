@@ -28,7 +28,7 @@ class ResponseRun {
   void pass_jump();
   /// Multiplies the tolerances by `factor`; the relative one becomes 0.1 at most. Fixed steps become half as long
   /// instead: longer ones may be unstable, and halves show 15/16 of the error.
-  void loosen(double factor);
+  void change_accuracy(double factor);
 
   [[nodiscard]] const SystemState& state() const { return state_; }
   [[nodiscard]] const IntegratorStatistics& statistics() const { return statistics_; }

@@ -111,7 +111,7 @@ void WindowIntegration::finish(const SimulationOptions& options, SteadyResponse&
   response.end = run_.state();
   response.energy = energy_;
   if (options.estimate_error) {
-    at_begin_->loosen(10);
+    at_begin_->change_accuracy(10);
     response.loose.emplace();
     at_begin_->advance(cycles_, &*response.loose);
   }

@@ -68,7 +68,7 @@ class Search:
     """The objective of a search for inputs, for any optimiser.
 
     search = Search(scene, {"ring.rim_mm": (10, 40)}, "sun_planet_dynamic_factor"); search(x) is the objective at x, one
-    value per input. An optimiser that asks and tells is driven by `drive`; a function that takes an objective, such as
+    value per input. An optimiser with `ask` and `tell` is driven by `drive`; a function that takes an objective, such as
     scipy.optimize.minimize, takes the search itself. A point that was evaluated before, in any run, is not computed
     again. An input whose bounds are whole numbers (int) takes whole numbers: its values are rounded.
     """

@@ -107,6 +107,16 @@ void for_each_stage_table(Response& r, Visit visit) {
   visit("critical_speeds.csv", r.modes.critical_speeds);
 }
 
+/// The largest part of its torque that friction can bring to the sun: the lever of a tooth pair over the base radius.
+double largest_share_of_friction(const dynamics::PlanetaryStage& stage) {
+  if (!stage.sun_friction) return 0;
+  const auto& distances = stage.sun_friction->sliding.distance;
+  double farthest = 0;
+  for (int piece = 0; piece < distances.pieces(); ++piece)
+    farthest = std::max(farthest, std::abs(distances.coefficients(piece)[0]));
+  return stage.sun_friction->coefficient * (std::tan(std::abs(stage.sun_working_angle)) + farthest / stage.sun.radius);
+}
+
 /// What repeats has to carry the torque; teeth that errors hold apart for longer than was looked at carry nothing, and
 /// repeat as well.
 void check_power(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response,
@@ -115,9 +125,7 @@ void check_power(const dynamics::PlanetaryStage& stage, const dynamics::DynamicR
   double carried = 0;
   for (const auto& branch : response.sun_planet.branches) carried += branch.mean_force;
   carried /= stage.planets() * stage.mean_mesh_force();
-  // Friction acts on the sun at a lever shorter than its base radius.
-  const double friction = stage.sun_friction ? stage.sun_friction->coefficient : 0;
-  if (std::abs(carried - 1) <= 10 * steady_tolerance + friction) return;
+  if (std::abs(carried - 1) <= 10 * steady_tolerance + largest_share_of_friction(stage)) return;
   throw SolverError(
       fmt::format("the teeth carry only {:.3g} of the sun's torque. The torque is too small to close the gaps from the "
                   "errors in the computed motion; raise the power or torque of [stage], or reduce [errors]",

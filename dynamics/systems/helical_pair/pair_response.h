@@ -54,9 +54,9 @@ struct PairResponse : SteadyOutcome {
 };
 
 /// Steady state of the pair and its results. The error of a result is the sum of the sampling error, the difference to
-/// the harmonic balance or the window before, and the difference to a looser integration. Where the harmonic balance
-/// stands alone, its largest force difference to half the samples replaces the latter. It is divided by the accelerated
-/// mass, or multiplied by the static compliance of the motion.
+/// the harmonic balance or the window before, and the difference to a looser integration (to half of the fixed steps).
+/// Where the harmonic balance stands alone, its largest force difference to half the samples replaces the latter. It is
+/// divided by the accelerated mass, or multiplied by the static compliance of the motion.
 ///
 /// options.confirm = false is meant for grids. While contact is never lost, the harmonic balance is then taken as it
 /// is, over two periods or `min_window_cycles` if less. With loss of contact several motions may exist, and time

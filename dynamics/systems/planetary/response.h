@@ -30,8 +30,8 @@ struct DynamicResponse : SteadyOutcome {
 /// is found or where the error period is longer than `max_window_cycles`.
 ///
 /// The error of a result is the sum of the sampling error and the difference to the harmonic balance or the window
-/// before. With `estimate_error` the difference to a looser integration is added. An infinite load sharing means
-/// instants without load.
+/// before. With `estimate_error` the difference to a looser integration (to half of the fixed steps) is added. An
+/// infinite load sharing means instants without load.
 ///
 /// Throws InputError when the stage or the options are not usable (no speed, no torque, a load out of balance because
 /// no support resists it), SolverError when the integrator fails.
