@@ -162,8 +162,9 @@ std::vector<std::filesystem::path> export_file(const std::filesystem::path& sour
     throw InputError(fmt::format("-o {}: is the file to be exported itself", file.string()));
   if (is_scene) {
     const Scene scene = read_scene(source);
-    const bool one = ring.empty() && scene.rings.size() == 1;
-    return found->write_scene(scene, {.ring = one ? scene.rings.front().name : ring, .threads = threads, .file = file});
+    const auto variants = variant_names(scene);
+    const bool one = ring.empty() && variants.size() == 1;
+    return found->write_scene(scene, {.ring = one ? variants.front() : ring, .threads = threads, .file = file});
   }
   if (is_picture)
     write_png(source, file);

@@ -16,21 +16,17 @@ double rough_stiffness(const Scene& scene, const MeshInput& mesh, double face_wi
   return mesh.mean.value_or(per_width * face_width * scene.material.youngs_modulus / steel);
 }
 
-Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> meshes, RoughCourse course) {
-  Scene rough = scene;
-  for (const auto& [mesh, face_width] : meshes) {
-    const auto shape = (scene.*mesh).stiffness;
-    if (shape == StiffnessShape::rectangular || shape == StiffnessShape::harmonic) continue;
-    rough.*mesh = {};
-    (rough.*mesh).stiffness = StiffnessShape::constant;
-    (rough.*mesh).mean = rough_stiffness(scene, scene.*mesh, face_width);
-    if (course == RoughCourse::constant) continue;
-    // Half the range over the mean of solved tables: 0.17 to 0.24 of spur sun meshes, 0.01 to 0.24 of spur ring meshes
-    // (data/scenes/ring_types.toml, arc_tooth_2kv.toml), 0.01 and 0.02 of a helical stage.
-    constexpr double of_spur = 0.2, of_helical = 0.02;
-    (rough.*mesh).stiffness = StiffnessShape::harmonic;
-    (rough.*mesh).ripple = scene.stage.helix_angle == 0 ? of_spur : of_helical;
-  }
+MeshInput rough_mesh(const Scene& scene, const MeshInput& mesh, double face_width, RoughCourse course) {
+  if (mesh.stiffness == StiffnessShape::rectangular || mesh.stiffness == StiffnessShape::harmonic) return mesh;
+  MeshInput rough;
+  rough.stiffness = StiffnessShape::constant;
+  rough.mean = rough_stiffness(scene, mesh, face_width);
+  if (course == RoughCourse::constant) return rough;
+  // Half the range over the mean of solved tables: 0.17 to 0.24 of spur sun meshes, 0.01 to 0.24 of spur ring meshes
+  // (data/scenes/ring_types.toml, arc_tooth_2kv.toml), 0.01 and 0.02 of a helical stage.
+  constexpr double of_spur = 0.2, of_helical = 0.02;
+  rough.stiffness = StiffnessShape::harmonic;
+  rough.ripple = scene.stage.helix_angle == 0 ? of_spur : of_helical;
   return rough;
 }
 

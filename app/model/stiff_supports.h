@@ -9,18 +9,14 @@ namespace annulus::app {
 /// Rough stiffness of a mesh before it is solved, N/m: the prescribed mean, else that of steel teeth on a face of
 /// `face_width` (m).
 [[nodiscard]] double rough_stiffness(const Scene& scene, const MeshInput& mesh, double face_width);
-struct RoughMesh {
-  MeshInput Scene::*mesh;
-  double face_width;  ///< m
-};
 /// What is assumed of a stiffness over the mesh cycle.
 enum class RoughCourse {
   constant,  ///< periods, steps and DOFs do not depend on it
   rippling   ///< it excites vibrations as one and two pairs of teeth in turn do, of helical gears less
 };
-/// The scene with rough stiffness of these meshes, before anything is solved. Prescribed waves stay.
-[[nodiscard]] Scene with_rough_stiffness(const Scene& scene, std::initializer_list<RoughMesh> meshes,
-                                         RoughCourse course = RoughCourse::constant);
+/// The mesh with its rough stiffness, before anything is solved. Prescribed waves stay.
+[[nodiscard]] MeshInput rough_mesh(const Scene& scene, const MeshInput& mesh, double face_width,
+                                   RoughCourse course = RoughCourse::constant);
 /// For a mesh whose stiffness is prescribed: a table that nobody reads.
 [[nodiscard]] MeshResult unread_table(const std::string& mesh);
 

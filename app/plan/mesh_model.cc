@@ -201,7 +201,7 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
   const fem::MeshWish wish{.model = scene.fidelity,
                            .accuracy = scene.accuracy,
                            .mean_force = mesh.mean_force,
-                           .ring_modes_count = scene.dynamics && scene.dynamics->rim_coupling == RimCoupling::elastic};
+                           .ring_modes_count = mesh.ring_modes_count};
   auto why_solid = solid_reason(scene, mesh);
   if (why_solid.empty() && scene.fidelity == Fidelity::automatic &&
       fem::why_no_solid_face(*model.problem, fem::Fidelity::solid).empty())

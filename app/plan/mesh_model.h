@@ -58,9 +58,10 @@ struct GearMesh {
   std::vector<fem::StrainGauge> gauges{};          ///< on a ring
   bool gauges_across = false;  ///< they stand beside the middle of the face, or measure along the axis
   std::optional<fem::PlanetRollers> planet_rollers{};
-  double misalignment = 0;     ///< m
-  double mean_force = 0;       ///< N, of one mesh
-  std::string why_it_tilts{};  ///< its bodies do, which solid gears answer where the model is left open; empty: not
+  double misalignment = 0;        ///< m
+  double mean_force = 0;          ///< N, of one mesh
+  bool ring_modes_count = false;  ///< elastic modes of the ring take part in the dynamics
+  std::string why_it_tilts{};     ///< its bodies do, which solid gears answer where the model is left open; empty: not
 };
 [[nodiscard]] MeshModel mesh_model(const Scene& scene, const GearMesh& mesh);
 /// Why it needs a solid model: what changes along its face width. Empty when nothing does.

@@ -48,9 +48,9 @@ long Plan::contact_problems() const {
 }
 
 void add_diameters(std::vector<DerivedInput>& list, const std::string& table, const geometry::Gear& gear,
-                   const std::string& ring) {
-  list.push_back({table + ".tip_diameter_mm", ring, 2 * gear.tip_radius() / units::mm});
-  list.push_back({table + ".root_diameter_mm", ring, 2 * gear.root_radius() / units::mm});
+                   const std::string& variant) {
+  list.push_back({table + ".tip_diameter_mm", variant, 2 * gear.tip_radius() / units::mm});
+  list.push_back({table + ".root_diameter_mm", variant, 2 * gear.root_radius() / units::mm});
 }
 
 std::vector<Input> resolved_inputs(const Scene& scene, const std::vector<DerivedInput>& derived) {
@@ -60,8 +60,9 @@ std::vector<Input> resolved_inputs(const Scene& scene, const std::vector<Derived
       list.push_back(input);
       continue;
     }
-    const auto found = std::find_if(derived.begin(), derived.end(),
-                                    [&](const DerivedInput& d) { return d.key == input.key && d.ring == input.ring; });
+    const auto found = std::find_if(derived.begin(), derived.end(), [&](const DerivedInput& d) {
+      return d.key == input.key && d.variant == input.variant;
+    });
     if (found == derived.end()) continue;
     list.push_back(input);
     list.back().value = found->value;

@@ -36,9 +36,9 @@ struct DofPlan {
 struct Plan {
   std::string title;
   std::vector<Input> inputs;         ///< all inputs with a value, and the ones derived from others
-  std::vector<Quantity> quantities;  ///< of the stage and the sun mesh
-  std::vector<std::pair<std::string, std::vector<Quantity>>> rings;  ///< per ring
-  std::vector<MeshModel> meshes;                                     ///< sun mesh first, then one per ring
+  std::vector<Quantity> quantities;  ///< of all variants
+  std::vector<std::pair<std::string, std::vector<Quantity>>> variants;  ///< of each
+  std::vector<MeshModel> meshes;                                        ///< those of all variants first
   std::vector<DofPlan> dofs;
   std::vector<Decision> motion;      ///< how the motion is found in time
   std::vector<StudyPlan> studies;    ///< sweeps, samples, sensitivity
@@ -54,13 +54,13 @@ struct Plan {
 
 /// The value of an absent input that follows from others.
 struct DerivedInput {
-  std::string key, ring;
+  std::string key, variant;
   double value = 0;    ///< in the unit of the key
   std::string note{};  ///< how; empty: what the schema notes
 };
 /// Tip and root diameter of the gear in a table of the scene ("sun", "ring").
 void add_diameters(std::vector<DerivedInput>& list, const std::string& table, const geometry::Gear& gear,
-                   const std::string& ring = "");
+                   const std::string& variant = "");
 /// The inputs of a scene that have a value, those that are derived among them.
 [[nodiscard]] std::vector<Input> resolved_inputs(const Scene& scene, const std::vector<DerivedInput>& derived);
 

@@ -89,7 +89,7 @@ std::string study_lines(const Plan& plan) {
   std::string text = plan.studies.empty() ? "" : "\nStudies\n";
   for (const auto& s : plan.studies) {
     text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.description, s.responses,
-                        plan.rings.empty() ? "" : " of all rings", duration_text(s.seconds));
+                        plan.variants.empty() ? "" : " of all rings", duration_text(s.seconds));
     text += s.tables ? fmt::format("; {} own stiffness tables\n", s.tables) : ", on the tables of the scene\n";
   }
   return text;
@@ -102,10 +102,11 @@ std::string warning_lines(const Plan& plan) {
 }
 
 std::string input_lines(const std::vector<Input>& inputs) {
-  std::string text, ring;
+  std::string text, variant;
   for (const auto& input : inputs) {
-    if (!input.ring.empty() && input.ring != ring) text += "  ring '" + input.ring + "'\n";
-    ring = input.ring;
+    if (!input.variant.empty() && input.variant != variant)
+      text += fmt::format("  {} '{}'\n", input.key.substr(0, input.key.find('.')), input.variant);
+    variant = input.variant;
     text += "  " + left_aligned(input.key, 40) + left_aligned(to_text(input.value) + " " + input.unit, 30) +
             (input.assumed.empty() ? "  " : "* ") + to_text(input.origin);
     if (input.origin != Origin::scene && !input.note.empty()) text += " (" + input.note + ")";
@@ -149,7 +150,7 @@ std::string to_text(const Plan& plan) {
   std::string text =
       plan.title + "\n\nInputs (origin: scene, default, derived; * assumed)\n" + input_lines(plan.inputs);
   text += "\nDerived\n" + quantity_lines(plan.quantities);
-  for (const auto& [name, quantities] : plan.rings) text += "  ring '" + name + "'\n" + quantity_lines(quantities);
+  for (const auto& [name, quantities] : plan.variants) text += "  ring '" + name + "'\n" + quantity_lines(quantities);
 
   text += "\nMeshes and bodies\n";
   for (const auto& mesh : plan.meshes) text += "  " + mesh.label() + "\n" + decision_lines(decisions(mesh));
@@ -172,7 +173,7 @@ std::string to_json(const Plan& plan) {
   json["title"] = plan.title;
   json["inputs"] = inputs_json(plan.inputs);
   json["stage"] = quantities_json(plan.quantities);
-  for (const auto& [name, quantities] : plan.rings) json["rings"][name] = quantities_json(quantities);
+  for (const auto& [name, quantities] : plan.variants) json["rings"][name] = quantities_json(quantities);
   for (const auto& mesh : plan.meshes) {
     Json item = {{"mesh", mesh.mesh}, {"model", mesh.fidelity}, {"reason", mesh.reason}};
     if (!mesh.ring.empty()) item["ring"] = mesh.ring;

@@ -92,7 +92,7 @@ void RexsWriter::custom_attributes(Component& component, const std::vector<std::
     const auto* p = find_parameter(input.key);
     if (p == nullptr || input.origin != Origin::scene || known_to_rexs(input.key)) continue;
     if (std::find(tables.begin(), tables.end(), p->table) == tables.end()) continue;
-    if (!ring.empty() && input.ring != ring) continue;
+    if (!ring.empty() && input.variant != ring) continue;
     component.attribute("custom_annulus_" + (tables.size() > 1 ? p->key() : p->name), input.unit,
                         toml_text(input.value));
   }

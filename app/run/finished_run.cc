@@ -31,7 +31,7 @@ std::string run_id(const Scene& scene, const RunOptions& options) {
   id.add("program", program_identity());
   id.add("scene", scene.text).add("dynamics", options.with_dynamics).add("accuracy", scene.accuracy);
   for (const auto& input : scene.inputs)
-    id.add(input.ring + input.key,
+    id.add(input.variant + input.key,
            fmt::format("{} {} {} {}", to_text(input.value), to_text(input.origin), input.note, input.assumed));
   auto files = input_files(scene);
   if (scene.reference) files.push_back(*scene.reference);

@@ -51,7 +51,7 @@ std::vector<std::pair<std::string, double>> timings_of(const SystemRun& run) {
 /// Identity of the inputs and of what is solved.
 std::string inputs_id(const SystemRun& run) {
   ContentId id;
-  for (const auto& input : run.scene.inputs) id.add(input.ring + "." + input.key, to_text(input.value));
+  for (const auto& input : run.scene.inputs) id.add(input.variant + "." + input.key, to_text(input.value));
   for (const auto& mesh : run.tables) id.add("mesh", mesh.model.id());
   for (const auto& file : input_files(run.scene))
     id.add(file, file_checksum(run.scene.file.parent_path() / file).value_or("missing"));

@@ -1,6 +1,18 @@
 #include "app/scene/gear_tables.h"
 
+#include "app/scene/scene_files.h"
+#include "core/errors.h"
+
 namespace annulus::app {
+
+std::shared_ptr<const geometry::FlankTopography> measured_flank(const Scene& scene, const std::string& file) {
+  if (scene.fidelity == Fidelity::closed_form || scene.fidelity == Fidelity::resolved)
+    throw InputError(
+        "formulas and resolved models do not cover measured flanks; use model = \"automatic\", \"plane\" or "
+        "\"solid\"");
+  return std::make_shared<const geometry::FlankTopography>(
+      geometry::read_flank_topography(file_below_scene(scene, file)));
+}
 
 Declared declare_centre_distance(Declarations<StageInput>& stage) {
   Declared key = stage.key("centre_distance_mm", &StageInput::centre_distance,

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -110,7 +112,12 @@ Declared declare_inertia(Declarations<Section>& t, const char* meaning = "Moment
   return key;
 }
 
-/// From tip_diameter_mm to lead_slope_um.
+/// The measured flank in a file that a scene names. Throws InputError for what is no such file, and for models without
+/// measured flanks.
+[[nodiscard]] std::shared_ptr<const geometry::FlankTopography> measured_flank(const Scene& scene,
+                                                                              const std::string& file);
+
+/// From tip_diameter_mm to right_topography.
 template <class Section>
 void declare_flanks(Declarations<Section>& t, Flanks flanks) {
   t.key("tip_diameter_mm", &Section::tip_diameter, "Tip diameter.")
@@ -163,16 +170,19 @@ void declare_flanks(Declarations<Section>& t, Flanks flanks) {
                "Slope along the face width, end to end; positive removes material towards +z, the free end of a "
                "thin_walled ring. The mesh then needs the solid model.")
       .from(-1000, 1000);
-  const auto topography = [&](const std::string& side, auto member, const char* direction) {
-    t.key(side + "_topography", member,
+  using Flank = std::shared_ptr<const geometry::FlankTopography>;
+  const auto topography = [&](const std::string& side, std::optional<std::string> GearInput::*file,
+                              Flank GearInput::*flank, const char* direction) {
+    t.key(side + "_topography", file,
           fmt::format("File (CSV) with the measured {} flank of a tooth, that on the {} side as seen from +z: "
                       "diameter_mm, position_mm, removed_um on a grid (docs/exchange.md). The path is relative to the "
                       "scene. Added to the modifications. Flanks that change along the face need the solid model.",
                       side, direction))
         .absent("involutes, with the modifications above");
+    t.then([file, flank](const Scene& scene, Section& gear) { gear.*flank = measured_flank(scene, *(gear.*file)); });
   };
-  topography("left", &Section::left_topography, "counter-clockwise");
-  topography("right", &Section::right_topography, "clockwise");
+  topography("left", &GearInput::left_topography, &GearInput::leading_flank, "counter-clockwise");
+  topography("right", &GearInput::right_topography, &GearInput::trailing_flank, "clockwise");
 }
 
 /// bore_diameter_mm, required where a mesh of this gear is computed.

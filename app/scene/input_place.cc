@@ -31,9 +31,11 @@ bool starts_with_word(const std::string& text, const std::string& word) {
 const Input* talked_about(const Scene& scene, const std::string& message) {
   if (const auto* key = first(scene, [&](const Input& i) { return i.line > 0 && starts_with_word(message, i.key); }))
     return key;
-  if (const auto* ring = first(
-          scene, [&](const Input& i) { return i.key == "ring.name" && message.starts_with("ring '" + i.ring + "'"); }))
-    return ring;
+  if (const auto* name = first(scene, [&](const Input& i) {
+        return !i.variant.empty() && i.key.ends_with(".name") &&
+               message.starts_with(fmt::format("{} '{}'", i.key.substr(0, i.key.find('.')), i.variant));
+      }))
+    return name;
   if (const auto* table = first(scene, [&](const Input& i) {
         return i.line > 0 && starts_with_word(message, i.key.substr(0, i.key.find('.')));
       }))

@@ -1,5 +1,7 @@
 #include "app/scene/key_checks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/scene/scene_limits.h"
@@ -7,9 +9,9 @@
 namespace annulus::app {
 
 Input* KeyChecks::find(const std::string& key, const Entry& entry) const {
-  const auto* ring = std::get_if<std::string>(&entry);
+  const auto* variant = std::get_if<std::string>(&entry);
   const auto found = std::find_if(scene_.inputs.begin(), scene_.inputs.end(), [&](const Input& input) {
-    return input.key == key && (ring ? input.ring == *ring : input.entry == std::get<std::size_t>(entry));
+    return input.key == key && (variant ? input.variant == *variant : input.entry == std::get<std::size_t>(entry));
   });
   return found == scene_.inputs.end() ? nullptr : &*found;
 }
@@ -27,10 +29,10 @@ bool KeyChecks::usable(const std::string& key, const Entry& entry) const {
 void KeyChecks::problem(const std::string& key, const Entry& entry, const std::string& rule) {
   const Input* input = find(key, entry);
   const auto* named = std::get_if<std::string>(&entry);
-  const std::string ring = input ? input->ring : named ? *named : "";
+  const std::string variant = input ? input->variant : named ? *named : "";
   std::string head = key;
   if (input && input->origin == Origin::scene) head += " = " + shown(to_text(input->value));
-  if (!ring.empty()) head += " (ring '" + shown(ring) + "')";
+  if (!variant.empty()) head += fmt::format(" ({} '{}')", key.substr(0, key.find('.')), shown(variant));
   problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
 }
 

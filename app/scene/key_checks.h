@@ -15,7 +15,7 @@ class KeyChecks {
   KeyChecks(Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {}
 
  protected:
-  /// Which table of an array, counted from 0, or which ring; by default the only table.
+  /// Which table of an array, counted from 0, or which variant; by default the only table.
   using Entry = std::variant<std::size_t, std::string>;
 
   [[nodiscard]] Input* find(const std::string& key, const Entry& entry = std::size_t{0}) const;

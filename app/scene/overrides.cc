@@ -22,10 +22,6 @@ bool applies(const Scene& scene, const Parameter& p) { return find_parameter(p.k
 std::vector<std::string> names_in(const Scene& scene, const Table& table) {
   std::vector<std::string> names;
   if (!table.repeated || is_study_table(table.path)) return names;
-  if (table.path == "ring") {  // named by their number where the scene does not
-    for (const auto& ring : scene.rings) names.push_back(ring.name);
-    return names;
-  }
   for (const auto& input : scene.inputs) {
     const auto* name = std::get_if<std::string>(&input.value);
     if (input.key != table.path + ".name" || name == nullptr) continue;
@@ -92,12 +88,18 @@ bool has_one_per_planet(const Parameter& p) {
 
 }  // namespace
 
+std::vector<std::string> variant_names(const Scene& scene) {
+  for (const auto& table : schema(scene.stage.kind))
+    if (table.variants) return names_in(scene, table);
+  return {};
+}
+
 InputTarget find_input(const Scene& scene, const std::string& path) {
   auto [key, index] = split_path(path);
   InputTarget target;
   const auto* table = find_table(key.substr(0, key.find('.')), schema(scene.stage.kind));
   if (table != nullptr && table->repeated && !is_study_table(table->path))
-    (table->path == "ring" ? target.rings : target.tables) = find_tables(scene, path, key, *table);
+    target.tables = find_tables(scene, path, key, *table), target.by_variant = table->variants;
   target.parameter = find_parameter(key);
   if (!target.parameter || !numeric(*target.parameter) || !applies(scene, *target.parameter))
     throw unknown(scene, path, key);
@@ -118,14 +120,18 @@ InputTarget find_input(const Scene& scene, const std::string& path) {
   return target;
 }
 
-std::optional<double> input_value(const Scene& scene, const InputTarget& target, std::size_t ring) {
-  const Input* input = scene.find(target.parameter->key(), target.rings.empty() ? target.entries().front() : ring);
+std::optional<double> input_value(const Scene& scene, const InputTarget& target, std::optional<std::size_t> entry) {
+  const Input* input = scene.find(target.parameter->key(), entry.value_or(target.entries().front()));
   if (!input) return std::nullopt;
   if (const auto* v = std::get_if<long>(&input->value)) return static_cast<double>(*v);
   if (const auto* v = std::get_if<double>(&input->value)) return *v;
   if (const auto* v = std::get_if<std::vector<double>>(&input->value); v && target.index)
     return *target.index < v->size() ? (*v)[*target.index] : 0.0;
   return std::nullopt;
+}
+
+std::optional<double> value_in_variant(const Scene& scene, const InputTarget& target, std::size_t variant) {
+  return target.by_variant ? input_value(scene, target, variant) : input_value(scene, target);
 }
 
 std::vector<std::string> expand_planets(const Scene& scene, const std::string& path) {

@@ -26,14 +26,13 @@ struct Override {
 /// What a key path means in one scene.
 struct InputTarget {
   const Parameter* parameter = nullptr;
-  std::vector<std::size_t> rings;    ///< which rings; empty for all other tables
-  std::vector<std::size_t> tables;   ///< which tables of another array; empty for single tables
+  std::vector<std::size_t> tables;   ///< which tables of an array; empty for single tables
+  bool by_variant = false;           ///< these are variants (Table::variants)
   std::optional<std::size_t> index;  ///< within a list, from 0
-  std::vector<double> list{};        ///< the present one, of several rings the shortest
+  std::vector<double> list{};        ///< the present one, of several tables the shortest
 
   /// Which tables of an array have the input.
   [[nodiscard]] std::vector<std::size_t> entries() const {
-    if (!rings.empty()) return rings;
     return tables.empty() ? std::vector<std::size_t>{0} : tables;
   }
 };
@@ -41,8 +40,17 @@ struct InputTarget {
 /// Throws InputError, with the nearest valid path, when the scene has no such numeric input.
 [[nodiscard]] InputTarget find_input(const Scene& scene, const std::string& path);
 
-/// The present value in the unit of the key, of the given ring where it is a ring's; nothing when it has none.
-[[nodiscard]] std::optional<double> input_value(const Scene& scene, const InputTarget& target, std::size_t ring = 0);
+/// Names of the variants that a scene compares, in their order; empty of kinds without.
+[[nodiscard]] std::vector<std::string> variant_names(const Scene& scene);
+
+/// The present value in the unit of the key, of one table of an array or of the first that has it; nothing when there
+/// is none.
+[[nodiscard]] std::optional<double> input_value(const Scene& scene, const InputTarget& target,
+                                                std::optional<std::size_t> entry = {});
+
+/// The same of one variant, for an input of variants; else of all.
+[[nodiscard]] std::optional<double> value_in_variant(const Scene& scene, const InputTarget& target,
+                                                     std::size_t variant);
 
 /// "errors.planet_pin_position_error_um[*]" as one path per planet, other lists as one per value, any other path as
 /// itself.

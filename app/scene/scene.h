@@ -10,18 +10,15 @@
 #include <vector>
 
 #include "app/scene/inputs/common_input.h"
-#include "app/scene/inputs/pair_input.h"
-#include "app/scene/inputs/planetary_input.h"
 #include "app/scene/inputs/study_input.h"
-#include "app/scene/inputs/two_k_v_input.h"
 #include "app/scene/scene_value.h"
 
 namespace annulus::app {
 
 /// What the user asks for, checked and in SI units. Every member is declared to the file format, with its key, unit,
-/// default, bounds and meaning, in a table of the schema (scene_schema.h) and nowhere else. Of the kinds of gear
-/// systems, only the inputs of stage.kind are set.
-struct Scene : PlanetaryInput, PairInput, TwoKVInput, StudyInput {
+/// default, bounds and meaning, in a table of the schema (scene_schema.h) and nowhere else. Inputs that not every kind
+/// of gear system has are structs of the kinds (own).
+struct Scene : StudyInput {
   std::filesystem::path file;
   std::string title;
   std::string project, author;  ///< for the report
@@ -30,9 +27,6 @@ struct Scene : PlanetaryInput, PairInput, TwoKVInput, StudyInput {
   std::optional<std::string> reference;
   StageInput stage;
   MaterialInput material;
-  HubGearInput sun, planet;
-  ErrorInput errors;
-  MeshInput sun_planet;
   std::optional<DynamicsInput> dynamics;  ///< absent: no dynamics wanted
   std::vector<RotorInput> rotors;
   std::vector<std::string> further_files;  ///< that files of it name, relative to it
@@ -41,7 +35,7 @@ struct Scene : PlanetaryInput, PairInput, TwoKVInput, StudyInput {
   /// of its own.
   std::string text;
 
-  /// Inputs of a kind of gear system that the members above do not have: structs that the kind defines.
+  /// Inputs of a kind of gear system, or of several, that the members above do not have: structs that they define.
   template <class Inputs>
   [[nodiscard]] Inputs& own() {
     auto& known = own_[typeid(Inputs)];
@@ -50,9 +44,10 @@ struct Scene : PlanetaryInput, PairInput, TwoKVInput, StudyInput {
   }
   /// Their defaults where the scene has none of their tables.
   template <class Inputs>
-  [[nodiscard]] Inputs own() const {
+  [[nodiscard]] const Inputs& own() const {
+    static const Inputs none{};
     const auto known = own_.find(typeid(Inputs));
-    return known != own_.end() ? std::any_cast<const Inputs&>(known->second) : Inputs{};
+    return known != own_.end() ? std::any_cast<const Inputs&>(known->second) : none;
   }
 
   std::vector<Input> inputs;                   ///< every input with its origin, in the order of the schema

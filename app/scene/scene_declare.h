@@ -137,8 +137,17 @@ T in_si(const Value& value, double si) {
   }
 }
 
-/// Builds a table whose keys are bound to the members of `Section`, a member of the scene: alone, in an optional that
-/// is there with the table, or one in a vector for each [[table]].
+/// The scene itself, or a struct of inputs that it owns.
+template <class Holder>
+Holder& held_by(Scene& scene) {
+  if constexpr (std::is_base_of_v<Holder, Scene>)
+    return scene;
+  else
+    return scene.own<Holder>();
+}
+
+/// Builds a table whose keys are bound to the members of `Section`, a member of the scene or of inputs that it owns:
+/// alone, in an optional that is there with the table, or one in a vector for each [[table]].
 template <class Section>
 class Declarations {
  public:
@@ -147,14 +156,15 @@ class Declarations {
     table_.path = std::move(path);
     table_.meaning = std::move(meaning);
   }
-  template <class Base>
-  Declarations(std::string path, std::string meaning, Section Base::*member)
+  template <class Holder>
+  Declarations(std::string path, std::string meaning, Section Holder::*member)
       : Declarations(std::move(path), std::move(meaning),
-                     [member](Scene& s, std::size_t) -> Section& { return s.*member; }) {}
-  template <class Base>
-  Declarations(std::string path, std::string meaning, std::optional<Section> Base::*member)
+                     [member](Scene& s, std::size_t) -> Section& { return held_by<Holder>(s).*member; }) {}
+  template <class Holder>
+  Declarations(std::string path, std::string meaning, std::optional<Section> Holder::*member)
       : Declarations(std::move(path), std::move(meaning), [member](Scene& s, std::size_t) -> Section& {
-          return s.*member ? *(s.*member) : (s.*member).emplace();
+          auto& section = held_by<Holder>(s).*member;
+          return section ? *section : section.emplace();
         }) {}
   /// [[path]]: `resize` makes room for the tables.
   Declarations(std::string path, std::string meaning, std::function<Section&(Scene&, std::size_t)> section,
@@ -163,13 +173,15 @@ class Declarations {
     table_.repeated = true;
     table_.resize = std::move(resize);
   }
-  template <class Base>
-  Declarations(std::string path, std::string meaning, std::vector<Section> Base::*member)
+  template <class Holder>
+  Declarations(std::string path, std::string meaning, std::vector<Section> Holder::*member)
       : Declarations(
             std::move(path), std::move(meaning),
-            [member](Scene& s, std::size_t i) -> Section& { return (s.*member).at(i); },
-            [member](Scene& s, std::size_t n) { (s.*member).resize(n); }) {}
+            [member](Scene& s, std::size_t i) -> Section& { return (held_by<Holder>(s).*member).at(i); },
+            [member](Scene& s, std::size_t n) { (held_by<Holder>(s).*member).resize(n); }) {}
 
+  /// Its tables are the variants of a comparison; they have a key "name".
+  Declarations& variants() { return table_.variants = true, *this; }
   Declarations& optional() { return table_.required = false, *this; }
   /// Optional, and without effect when absent.
   Declarations& on_request() { return table_.on_request = true, optional(); }
@@ -203,6 +215,17 @@ class Declarations {
                                                       : Kind::texts;
     store(p, member, [si = p.si](const Value& v) { return in_si<V>(v, si); });
     return Declared(p);
+  }
+
+  /// What follows from the value of the key declared last, as the contents of a file; its InputError is a problem of
+  /// the key.
+  void then(std::function<void(const Scene&, Section&)> follow) {
+    auto& store = table_.parameters.back().store;
+    store = [first = std::move(store), section = section_, follow = std::move(follow)](Scene& scene, std::size_t index,
+                                                                                       const Value& value) {
+      first(scene, index, value);
+      follow(scene, section(scene, index));
+    };
   }
 
   template <class Base, class T>

@@ -54,7 +54,8 @@ struct Parameter {
   std::vector<std::string> some_of{};        ///< at least one of this key and these is given
   bool default_where_it_applies = false;     ///< the default holds only where `only_if` does
 
-  /// Stores a checked value (in file units) into the scene; the index counts the tables of an array ([[ring]]).
+  /// Stores a checked value (in file units) into the scene; the index counts the tables of an array ([[ring]]). Throws
+  /// InputError for what the value leads to, as a file without the right contents.
   std::function<void(Scene&, std::size_t, const Value&)> store{};
 
   [[nodiscard]] std::string key() const { return table.empty() ? name : table + "." + name; }
@@ -72,6 +73,7 @@ struct Table {
   bool repeated = false;    ///< [[path]]: array of tables
   bool required = true;     ///< false: absent as a whole is fine, and then none of its keys applies
   bool on_request = false;  ///< its presence is itself the question: defaults apply only when it is there
+  bool variants = false;    ///< of [[path]]: each is a variant that is computed and compared, by its name
   Role role = Role::model;
   std::string meaning{};
   std::vector<std::string> kinds{};  ///< of gear systems that have this table; empty: all

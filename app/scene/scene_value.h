@@ -21,8 +21,8 @@ enum class Origin { scene, default_value, derived };
 
 /// One input of a scene, with where it came from.
 struct Input {
-  std::string key;     ///< "stage.module_mm", "ring.pins"
-  std::string ring{};  ///< name of the ring the value belongs to, empty for all other tables
+  std::string key;        ///< "stage.module_mm", "ring.pins"
+  std::string variant{};  ///< name of the variant the value belongs to (Table::variants); empty elsewhere
   Value value{};
   std::string unit{};  ///< for people: "mm", "kg m²"
   Origin origin = Origin::scene;

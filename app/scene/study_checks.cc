@@ -166,8 +166,8 @@ class StudyChecker : KeyChecks {
       problem("optimise.weights", fmt::format("needs one weight per result: {} weights for {} results",
                                               o.weights.size(), o.objective.size()));
     if (o.population % 2) problem("optimise.population", "must be even: parents are crossed in pairs");
-    if (o.ring &&
-        std::none_of(scene_.rings.begin(), scene_.rings.end(), [&](const auto& r) { return r.name == *o.ring; }))
+    const auto variants = variant_names(scene_);
+    if (o.ring && std::find(variants.begin(), variants.end(), *o.ring) == variants.end())
       problem("optimise.ring", "there is no ring of this name in the scene");
     if (scene_.variables.empty()) problem("optimise.objective", "needs an [[optimise.variable]] at least");
     for (std::size_t i = 0; i < scene_.variables.size(); ++i) variable(scene_.variables[i], i);

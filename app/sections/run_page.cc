@@ -78,14 +78,14 @@ Section inputs_section(const SystemRun& run) {
     if (!input.assumed.empty()) origin += " " + assumed_tag;
     if (input.origin != Origin::scene && !input.note.empty()) origin += ": " + input.note;
     all.rows.push_back(
-        {key_text(input.key, input.ring), to_text(input.value) + " " + input.unit, origin, input.meaning});
+        {key_text(input.key, input.variant), to_text(input.value) + " " + input.unit, origin, input.meaning});
   }
   const auto add_derived = [&](const auto& quantities, const std::string& ring) {
     for (const auto& q : quantities)
       all.rows.push_back({key_text(q.key, ring), to_text(q.value, 8) + " " + q.unit, "derived", q.meaning});
   };
   add_derived(plan.quantities, "");
-  for (const auto& [ring, quantities] : plan.rings) add_derived(quantities, ring);
+  for (const auto& [ring, quantities] : plan.variants) add_derived(quantities, ring);
   Blocks record = Lines{run.scene.text};
   if (!run.command.empty()) record = paragraph("Made by " + code(run.command) + ".") + record;
   return {"inputs", "Inputs",

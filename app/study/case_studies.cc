@@ -179,8 +179,8 @@ SensitivityResult run_sensitivity(const StudySubject& subject) {
     SensitivityRow row{inputs[i], target.parameter->unit, {}, column(2 * i), column(2 * i + 1), false};
     for (std::size_t variant = 0; variant < points.variants.size(); ++variant) {
       const bool has =
-          target.rings.empty() || std::find(target.rings.begin(), target.rings.end(), variant) != target.rings.end();
-      row.values.push_back(has ? input_value(scene, target, variant).value_or(0) : not_known);
+          !target.by_variant || std::find(target.tables.begin(), target.tables.end(), variant) != target.tables.end();
+      row.values.push_back(has ? value_in_variant(scene, target, variant).value_or(0) : not_known);
     }
     row.order_stays =
         !order.empty() && order_of(row.divided, figure) == order && order_of(row.multiplied, figure) == order;

@@ -36,7 +36,7 @@ std::string samples_id(const StudySubject& subject, std::size_t variant, const S
       continue;
     const auto* number = std::get_if<double>(&input.value);
     const auto* list = std::get_if<std::vector<double>>(&input.value);
-    const std::string name = input.key + "." + input.ring;
+    const std::string name = input.key + "." + input.variant;
     if (number) {
       id.add(name, *number);
     } else if (list) {

@@ -105,7 +105,7 @@ class DesignObjective {
   [[nodiscard]] std::vector<double> given() const {
     std::vector<double> x;
     for (const auto& v : scene_.variables)
-      x.push_back(input_value(scene_, find_input(scene_, v.input), variant_).value_or(not_known));
+      x.push_back(value_in_variant(scene_, find_input(scene_, v.input), variant_).value_or(not_known));
     return x;
   }
 

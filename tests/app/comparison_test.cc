@@ -6,6 +6,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/files.h"
 #include "tests/app/scenes.h"
@@ -17,9 +18,9 @@ namespace {
 /// A run of two rings with prescribed constant stiffnesses, without dynamics; `error` is that of every table entry.
 app::RunResult run_of(double stiff, double soft, double error) {
   auto scene = app::parse_scene(test::quick_scene(), "s");
-  scene.rings.push_back(scene.rings.front());
-  scene.rings[0].name = "stiff";
-  scene.rings[1].name = "soft";
+  planetary(scene).rings.push_back(planetary(scene).rings.front());
+  planetary(scene).rings[0].name = "stiff";
+  planetary(scene).rings[1].name = "soft";
   auto geometry = app::make_geometry(scene);
   const auto mesh = [&](std::size_t ring, double k) {
     StiffnessTable table(

@@ -7,6 +7,8 @@
 #include "app/model/gear_system.h"
 #include "app/scene/new_scene.h"
 #include "app/scene/scene_files.h"
+#include "app/systems/planetary/planetary_input.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/units.h"
@@ -59,12 +61,12 @@ BOOST_AUTO_TEST_CASE(a_published_stage_has_its_printed_dimensions) {
   near(gears.at("sun").at("span_mm"), 363.082, span);
   near(gears.at("planet").at("span_mm"), 367.520, span);
   BOOST_TEST(gears.at("sun").at("span_teeth") == 3);
-  const auto& ring = gears.at("ring '" + scene.rings.front().name + "'");
+  const auto& ring = gears.at("ring '" + planetary(scene).rings.front().name + "'");
   near(ring.at("span_mm"), 1047.070, span);
   BOOST_TEST(ring.at("span_teeth") == 8);
   near(ring.at("base_diameter_mm"), 2368.025, 1e-3);
   const auto &sun_mesh = pairs.at("planet and sun"),
-             &ring_mesh = pairs.at("planet and ring '" + scene.rings.front().name + "'");
+             &ring_mesh = pairs.at("planet and ring '" + planetary(scene).rings.front().name + "'");
   near(sun_mesh.at("contact_ratio"), 1.115, 5e-4);
   near(ring_mesh.at("contact_ratio"), 1.278, 5e-4);
   near(sun_mesh.at("path_of_contact_mm"), 148.093, 1e-3);
@@ -78,7 +80,7 @@ BOOST_AUTO_TEST_CASE(shifts_follow_from_the_centre_distance_and_the_mate) {
       test::replaced(with_shift_from("profile_shift = 0.7608", "profile_shift_from = \"centre_distance\""),
                      "profile_shift = 0.1516", "profile_shift_from = \"centre_distance\"\nnormal_backlash_um = 120"));
   // Printed shifts of four digits leave some tenths of a micrometre of backlash.
-  BOOST_TEST(std::abs(scene.sun.profile_shift - 0.7608) < 1e-4);
+  BOOST_TEST(std::abs(sun_and_planets(scene).sun.profile_shift - 0.7608) < 1e-4);
   const auto data = app::make_system(scene)->drawing();
   BOOST_TEST(std::abs(data.pairs[0].pair.normal_backlash()) < 1e-12);
   BOOST_TEST(std::abs(data.pairs[1].pair.normal_backlash() - 120e-6) < 1e-12);
@@ -95,7 +97,7 @@ BOOST_AUTO_TEST_CASE(shifts_follow_from_measurements) {
                            fmt::format("profile_shift_from = \"pins\"\nmeasuring_pin_mm = 8\nover_pins_mm = {:.17g}",
                                        geometry::dimension_over_pins(sun, pin) / units::mm)}) {
     const auto scene = parsed(with_shift_from("profile_shift = 0.7608", keys));
-    BOOST_TEST(std::abs(scene.sun.profile_shift - 0.7608) < 1e-10);
+    BOOST_TEST(std::abs(sun_and_planets(scene).sun.profile_shift - 0.7608) < 1e-10);
   }
   // Both circles are the ones printed; the sun's shift follows from its root circle with a dedendum of 1.25 modules.
   const auto text = with_shift_from("profile_shift = 0.7608", "profile_shift_from = \"root_diameter\"");

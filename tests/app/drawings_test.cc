@@ -6,6 +6,7 @@
 #include "app/report/drawings/axial_section.h"
 #include "app/report/drawings/dimension.h"
 #include "app/report/drawings/teeth.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "core/units.h"
@@ -204,7 +205,7 @@ BOOST_AUTO_TEST_CASE(axial_sections_show_every_structure) {
     return app::to_svg({.title = "r",
                         .ring = geometry.rings.front().set.ring(),
                         .outside_radius = geometry.rings.front().outside_radius,
-                        .structure = app::ring_structure(scene.rings.front())});
+                        .structure = app::ring_structure(planetary(scene).rings.front())});
   };
   const auto svg_of = [&](const std::string& structure) {
     return ring(app::parse_scene(test::replaced(test::quick_scene(), "structure = \"traditional\"", structure), "s"));

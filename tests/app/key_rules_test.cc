@@ -9,6 +9,7 @@
 #include "app/scene/scene_declare.h"
 #include "app/scene/scene_kind.h"
 #include "app/study/studies.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "core/errors.h"
 #include "tests/app/bad_scenes.h"
 #include "tests/app/scene_edit.h"
@@ -34,8 +35,9 @@ app::Input absent(const std::string& key, std::size_t entry = 0) {
 template <class Rules>
 std::vector<app::Table> shapes(Rules rules) {
   app::Declarations<app::RingInput> t("shape", "", [](app::Scene& s, std::size_t i) -> app::RingInput& {
-    if (s.rings.size() <= i) s.rings.resize(i + 1);
-    return s.rings[i];
+    auto& rings = planetary(s).rings;
+    if (rings.size() <= i) rings.resize(i + 1);
+    return rings[i];
   });
   t.choice(
       "form", &app::RingInput::structure,
@@ -167,11 +169,11 @@ BOOST_AUTO_TEST_CASE(defaults_that_hold_where_a_key_applies) {
   const auto tables = shapes([](app::Declared d) { d.only_if(is("form", {"deep"})).fallback(4.0, "usual"); });
   app::Scene scene;
   BOOST_TEST(rule_problems(tables, {form_of("deep"), absent("shape.depth_mm")}, &scene).empty());
-  BOOST_TEST(scene.rings.front().free_length.value() == 4e-3);
+  BOOST_TEST(planetary(scene).rings.front().free_length.value() == 4e-3);
   BOOST_TEST(std::get<double>(scene.inputs.back().value) == 4.0);
   BOOST_TEST(scene.inputs.back().note == "usual");
   BOOST_TEST(rule_problems(tables, {form_of("flat"), absent("shape.depth_mm")}, &scene).empty());
-  BOOST_TEST((scene.rings.empty() || !scene.rings.front().free_length));
+  BOOST_TEST((planetary(scene).rings.empty() || !planetary(scene).rings.front().free_length));
   BOOST_TEST(std::holds_alternative<std::monostate>(scene.inputs.back().value));
   BOOST_TEST(rule_problems(tables, {form_of("flat"), depth_of(4)}).size() == 1U);
 }

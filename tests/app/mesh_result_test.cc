@@ -6,6 +6,7 @@
 #include "app/model/mesh_figures.h"
 #include "app/run/pipeline.h"
 #include "app/systems/planetary/planetary_model.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "core/result_store.h"
@@ -285,7 +286,7 @@ BOOST_AUTO_TEST_CASE(prescribed_waves_are_sampled) {
   const auto scene = app::parse_scene(test::quick_scene(), "s");
   const auto geometry = app::make_geometry(scene);
   const auto model = app::sun_mesh_model(scene, geometry);
-  auto input = scene.sun_planet;
+  auto input = sun_and_planets(scene).sun_planet;
   const auto harmonic = app::prescribed_stiffness(model, input, scene, 1.5, 1e4);
   // The mean of a cosine over equidistant samples of its period vanishes to rounding.
   BOOST_TEST(harmonic.mean_stiffness().value == 1.364e9, boost::test_tools::tolerance(1e-13));

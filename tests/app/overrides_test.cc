@@ -5,6 +5,8 @@
 
 #include "app/model/study_cases.h"
 #include "app/study/studies.h"
+#include "app/systems/planetary/planetary_input.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 
@@ -60,18 +62,19 @@ BOOST_AUTO_TEST_CASE(values_are_set_before_the_checks) {
                                   {"errors.planet_eccentricity_um[2]", 40},
                                   {"errors.planet_pin_position_error_phase_deg[5]", 90},  // list not there
                                   {"sun.teeth", 48}});
-  BOOST_TEST(*changed.stage.power == 1e6);
-  BOOST_TEST(*changed.stage.sun_speed == 900 * units::rpm, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(changed.supports.ring == 2e9);
-  BOOST_TEST(*changed.sun_planet.mean == 1e9);
+  BOOST_TEST(*planetary(changed).stage.power == 1e6);
+  BOOST_TEST(*planetary(changed).stage.sun_speed == 900 * units::rpm, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(planetary(changed).supports.ring == 2e9);
+  BOOST_TEST(*sun_and_planets(changed).sun_planet.mean == 1e9);
   const std::vector<double> eccentricity = {15, 40, 17, 38, 19};
   for (std::size_t n = 0; n < 5; ++n)
-    BOOST_TEST(changed.errors.planet_eccentricity[n] == eccentricity[n] * units::um,
+    BOOST_TEST(planetary(changed).errors.planet_eccentricity[n] == eccentricity[n] * units::um,
                boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(changed.errors.planet_pin_position_phase[4] == 90 * units::deg, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(changed.errors.planet_pin_position_phase[0] == 0.0);
+  BOOST_TEST(planetary(changed).errors.planet_pin_position_phase[4] == 90 * units::deg,
+             boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(planetary(changed).errors.planet_pin_position_phase[0] == 0.0);
   // The scene itself is as it was, and so is one changed by nothing.
-  BOOST_TEST(*scene.stage.power == 2958.8e3);
+  BOOST_TEST(*planetary(scene).stage.power == 2958.8e3);
   const auto same = app::with_overrides(scene, {});
   BOOST_TEST_REQUIRE(same.inputs.size() == scene.inputs.size());
   for (std::size_t i = 0; i < same.inputs.size(); ++i)
@@ -81,30 +84,29 @@ BOOST_AUTO_TEST_CASE(values_are_set_before_the_checks) {
 BOOST_AUTO_TEST_CASE(rings_are_named_or_all_meant) {
   const auto scene = two_rings();
   const auto all = app::with_overrides(scene, {{"ring.mass_kg", 50}});
-  BOOST_TEST(*all.rings[0].mass == 50.0);
-  BOOST_TEST(*all.rings[1].mass == 50.0);
+  BOOST_TEST(*planetary(all).rings[0].mass == 50.0);
+  BOOST_TEST(*planetary(all).rings[1].mass == 50.0);
   const auto one = app::with_overrides(scene, {{"ring.pins.24.mass_kg", 50}});
-  BOOST_TEST(*one.rings[0].mass == 31.25);
-  BOOST_TEST(*one.rings[1].mass == 50.0);
+  BOOST_TEST(*planetary(one).rings[0].mass == 31.25);
+  BOOST_TEST(*planetary(one).rings[1].mass == 50.0);
   // Only one of them has pins: the other stays without.
   const auto pins = app::with_overrides(scene, {{"ring.pins", 12}});
-  BOOST_TEST(!pins.rings[0].pins.has_value());
-  BOOST_TEST(*pins.rings[1].pins == 12);
+  BOOST_TEST(!planetary(pins).rings[0].pins.has_value());
+  BOOST_TEST(*planetary(pins).rings[1].pins == 12);
   // A factor takes each ring's own value.
   const auto thin = app::with_overrides(scene, {{"ring.outside_diameter_mm", 1.01, true}});
-  for (const auto& ring : thin.rings)
+  for (const auto& ring : planetary(thin).rings)
     BOOST_TEST(*ring.outside_diameter == 1.01 * 0.6636, boost::test_tools::tolerance(1e-14));
 }
 
 BOOST_AUTO_TEST_CASE(factors_multiply_each_present_value) {
   const auto scene = two_rings();
   const auto heavier = app::with_overrides(scene, {{"ring.pins.24.mass_kg", 2, true}, {"ring.pins", 0.5, true}});
-  BOOST_TEST(*heavier.rings[1].mass == 62.5);
-  BOOST_TEST(*heavier.rings[1].pins == 12);
-  BOOST_TEST(
-      app::with_overrides(scene, {{"errors.planet_eccentricity_um[3]", 2, true}}).errors.planet_eccentricity[2] ==
-          34e-6,
-      boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(*planetary(heavier).rings[1].mass == 62.5);
+  BOOST_TEST(*planetary(heavier).rings[1].pins == 12);
+  BOOST_TEST(planetary(app::with_overrides(scene, {{"errors.planet_eccentricity_um[3]", 2, true}}))
+                     .errors.planet_eccentricity[2] == 34e-6,
+             boost::test_tools::tolerance(1e-15));
   check_message(refusal(scene, {"supports.ring_N_per_m", 2, true}), {"supports.ring_N_per_m", "rigid"});
   check_message(refusal(scene, {"sun.tip_diameter_mm", 2, true}), {"sun.tip_diameter_mm", "no value"});
 }

@@ -5,6 +5,7 @@
 #include "app/model/gear_system.h"
 #include "app/model/study_cases.h"
 #include "app/systems/helical_pair/pair_errors.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/pair_model.h"
 #include "app/systems/helical_pair/pair_stiffness.h"
 #include "core/units.h"
@@ -48,7 +49,7 @@ BOOST_AUTO_TEST_CASE(absent_inertias_and_centre_distance_are_derived) {
   const auto given =
       parsed_pair(test::replaced(test::quick_pair(), "mass_kg = 289", "mass_kg = 289\ninertia_kg_m2 = 9"));
   BOOST_CHECK(input_of(given, "wheel.inertia_kg_m2").origin == app::Origin::scene);
-  BOOST_TEST(*app::pair_inertia(given, given.wheel) == 9.0);
+  BOOST_TEST(*app::pair_inertia(given, helical_pair(given).wheel) == 9.0);
 }
 
 BOOST_AUTO_TEST_CASE(profile_shifts_set_the_centre_distance_without_backlash) {

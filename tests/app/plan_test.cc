@@ -14,6 +14,7 @@
 #include "app/plan/cost_plan.h"
 #include "app/scene/overrides.h"
 #include "app/study/studies.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -426,15 +427,15 @@ BOOST_AUTO_TEST_CASE(identity_follows_the_inputs_that_matter) {
   const auto id = [&](const app::Scene& s) { return app::ring_mesh_model(s, app::make_geometry(s), 1).id(); };
   auto other = scene;
   other.title = "another title";
-  other.supports.sun = 2e7;
+  planetary(other).supports.sun = 2e7;
   BOOST_TEST(id(other) == id(scene));  // no influence on the mesh
-  other.rings[1].free_length = 19e-3;
+  planetary(other).rings[1].free_length = 19e-3;
   BOOST_TEST(id(other) != id(scene));
   other = scene;
-  other.rings[0].outside_diameter = 0.7;
+  planetary(other).rings[0].outside_diameter = 0.7;
   BOOST_TEST(id(other) == id(scene));  // another ring
   other = scene;
-  *other.stage.power *= 1.0 + 1e-15;
+  *planetary(other).stage.power *= 1.0 + 1e-15;
   BOOST_TEST(id(other) != id(scene));  // the last bit of a load counts
   BOOST_TEST(app::sun_mesh_model(scene, geometry).id() != id(scene));
 }
@@ -444,8 +445,8 @@ BOOST_AUTO_TEST_CASE(identity_follows_every_structure_key) {
   const auto changed = [&](const std::string& ring, auto change) {
     auto other = scene;
     std::size_t i = 0;
-    while (other.rings.at(i).name != ring) ++i;
-    change(other.rings[i]);
+    while (planetary(other).rings.at(i).name != ring) ++i;
+    change(planetary(other).rings[i]);
     const auto id = [&](const app::Scene& s) { return app::ring_mesh_model(s, app::make_geometry(s), i).id(); };
     return id(other) != id(scene);
   };
@@ -468,7 +469,7 @@ BOOST_AUTO_TEST_CASE(identity_follows_every_structure_key) {
   BOOST_TEST(changed("traditional", [](auto& r) { r.lead_slope = 1e-6; }));
   BOOST_TEST(changed("traditional", [](auto& r) { r.lead_crowning = 1e-6; }));
   auto misaligned = scene;
-  misaligned.errors.ring_planet_misalignment = 1e-6;
+  planetary(misaligned).errors.ring_planet_misalignment = 1e-6;
   const auto geometry = app::make_geometry(scene);
   BOOST_TEST(app::ring_mesh_model(misaligned, geometry, 2).id() != app::ring_mesh_model(scene, geometry, 2).id());
   BOOST_TEST(app::sun_mesh_model(misaligned, geometry).id() == app::sun_mesh_model(scene, geometry).id());

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "app/scene/scene.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {
@@ -34,7 +35,7 @@ BOOST_AUTO_TEST_CASE(what_is_taken_and_looked_at_follows_from_the_accuracy) {
   ringing.coupling.modes.emplace_back();
   BOOST_CHECK(!app::is_negligible(scene, ringing));
   // Who asks for it gets it, and what it changes.
-  scene.dynamics->rim_coupling = app::RimCoupling::statical;
+  planetary(scene).rim_coupling = app::RimCoupling::statical;
   BOOST_CHECK(taken(coupling_of(0.0009)) == app::RimCoupling::statical);
   BOOST_CHECK(!app::is_negligible(scene, coupling_of(0.0009)));
 }

@@ -12,6 +12,7 @@
 #include "app/scene/overrides.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_schema.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/stage_geometry.h"
 #include "core/files.h"
 #include "core/units.h"
@@ -77,12 +78,12 @@ BOOST_AUTO_TEST_CASE(values_are_si) {
   // One rounding of value x factor each.
   BOOST_TEST(scene.stage.module == 3.8e-3, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(scene.stage.pressure_angle == 22.5 * units::deg, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(*scene.stage.power == 2958.8e3, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(*scene.stage.sun_speed == 1128 * units::rpm, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(*planetary(scene).stage.power == 2958.8e3, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(*planetary(scene).stage.sun_speed == 1128 * units::rpm, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(scene.material.youngs_modulus == 206e9, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(scene.errors.planet_eccentricity.at(1) == 36e-6, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(planetary(scene).errors.planet_eccentricity.at(1) == 36e-6, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(scene.dynamics->half_backlash == 50e-6, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(scene.rings.at(0).name == "held");
+  BOOST_TEST(planetary(scene).rings.at(0).name == "held");
 }
 
 BOOST_AUTO_TEST_CASE(origins_and_defaults) {
@@ -90,9 +91,9 @@ BOOST_AUTO_TEST_CASE(origins_and_defaults) {
   BOOST_CHECK(input(scene, "stage.module_mm").origin == app::Origin::scene);
   BOOST_CHECK(input(scene, "material.poisson_ratio").origin == app::Origin::default_value);
   BOOST_TEST(scene.material.poisson_ratio == 0.3);
-  BOOST_TEST(scene.errors.planet_pin_position.size() == 5U);  // an absent list becomes zeros
-  BOOST_TEST(std::isinf(scene.supports.ring));                // an absent support is rigid
-  BOOST_TEST(!scene.supports.sun_torsional.has_value());
+  BOOST_TEST(planetary(scene).errors.planet_pin_position.size() == 5U);  // an absent list becomes zeros
+  BOOST_TEST(std::isinf(planetary(scene).supports.ring));                // an absent support is rigid
+  BOOST_TEST(!planetary(scene).supports.sun_torsional.has_value());
 }
 
 BOOST_AUTO_TEST_CASE(unknown_key_has_line_and_nearest_key) {
@@ -177,7 +178,7 @@ BOOST_AUTO_TEST_CASE(what_belongs_to_another_kind_of_stage_is_said_so) {
 BOOST_AUTO_TEST_CASE(pins_by_number_or_by_place) {
   const auto scene =
       app::parse_scene(ring_with("pinned", "pin_angles_deg = [0, 100, 250]\npin_diameter_mm = 15\n"), "s");
-  const auto& ring = scene.rings.front();
+  const auto& ring = planetary(scene).rings.front();
   BOOST_TEST(ring.pin_count() == 3);
   BOOST_TEST(ring.pin_angles.at(1) == 100 * units::deg, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(!ring.housing_clearance.has_value());
@@ -214,19 +215,19 @@ BOOST_AUTO_TEST_CASE(a_single_pin_rests_in_a_bore) {
   const std::string keys = "pins = 1\npin_diameter_mm = 15\n";
   for (const auto* structure : {"pinned", "bolted"}) {
     const auto scene = app::parse_scene(ring_with(structure, keys), "s");
-    BOOST_TEST_REQUIRE(scene.rings.front().housing_clearance.has_value());
-    BOOST_TEST(*scene.rings.front().housing_clearance == 0.0);
+    BOOST_TEST_REQUIRE(planetary(scene).rings.front().housing_clearance.has_value());
+    BOOST_TEST(*planetary(scene).rings.front().housing_clearance == 0.0);
     const auto& told = input(scene, "ring.housing_clearance_um");
     BOOST_CHECK(told.origin == app::Origin::default_value);
     BOOST_TEST(told.note.find("bore") != std::string::npos);
   }
   const auto given = app::parse_scene(ring_with("pinned", keys + "housing_clearance_um = 30\n"), "s");
-  BOOST_TEST(*given.rings.front().housing_clearance == 30e-6, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(*planetary(given).rings.front().housing_clearance == 30e-6, boost::test_tools::tolerance(1e-15));
 }
 
 BOOST_AUTO_TEST_CASE(splines) {
   const auto scene = app::parse_scene(ring_with("splined", "splines = 54\n"), "s");
-  const auto& ring = scene.rings.front();
+  const auto& ring = planetary(scene).rings.front();
   BOOST_TEST(*ring.spline_flank_angle == 30 * units::deg, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(*ring.spline_clearance == 0.0);
   BOOST_TEST(!ring.spline_stiffness.has_value());
@@ -245,7 +246,7 @@ BOOST_AUTO_TEST_CASE(clamped_rings) {
                     circle = "bolt_circle_diameter_mm = 652\n", diameter = "bolt_diameter_mm = 9\n";
   const std::string all = clamp + number + circle + diameter;
   const auto scene = app::parse_scene(ring_with("clamped", all), "s");
-  const auto& ring = scene.rings.front();
+  const auto& ring = planetary(scene).rings.front();
   BOOST_TEST(*ring.clamp_inner_diameter == 0.64, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(*ring.first_bolt_angle == 0.0);
   BOOST_TEST(!ring.dowels.has_value());
@@ -275,7 +276,7 @@ BOOST_AUTO_TEST_CASE(flanges_and_hoops_come_in_pairs) {
   const std::string sleeve = "free_length_mm = 18\nsleeve_thickness_mm = 10.6\n";
   const auto flange =
       app::parse_scene(ring_with("traditional", "flange_width_mm = 20\nflange_diameter_mm = 740\n"), "s");
-  BOOST_TEST(*flange.rings.front().flange_diameter == 0.74, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(*planetary(flange).rings.front().flange_diameter == 0.74, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(problems_of(ring_with("thin_walled", sleeve + "hoop_width_mm = 15\nhoop_thickness_mm = 15\n")).empty());
   check_ring_refused("traditional", "flange_width_mm = 20", "flange_width_mm",
                      {"flange_width_mm = 20", "flange_diameter_mm"});

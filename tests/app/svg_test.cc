@@ -7,6 +7,7 @@
 #include "app/report/drawings/mode.h"
 #include "app/report/text/svg.h"
 #include "app/sections/report_parts.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "geometry/sector_mesh.h"
 #include "tests/app/made_up_solution.h"
@@ -145,7 +146,7 @@ BOOST_AUTO_TEST_CASE(pictures_of_supports) {
   };
   const auto find = [&](const std::string& name) {
     std::size_t i = 0;
-    while (scene.rings.at(i).name != name) ++i;
+    while (planetary(scene).rings.at(i).name != name) ++i;
     return i;
   };
   const auto pin = picture(find("one-pin"));

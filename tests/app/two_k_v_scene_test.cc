@@ -4,6 +4,8 @@
 #include "app/model/gear_system.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene_schema.h"
+#include "app/systems/shared/sun_planet_input.h"
+#include "app/systems/two_k_v/two_k_v_input.h"
 #include "app/systems/two_k_v/two_k_v_model.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
@@ -43,13 +45,13 @@ BOOST_AUTO_TEST_SUITE(two_k_v_scene)
 
 BOOST_AUTO_TEST_CASE(values_arrive_in_SI) {
   const auto scene = parse(test::reducer_scene());
-  BOOST_TEST(scene.arc_gear.eccentricity == 0.9e-3, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(scene.arc_gear.count == 2);
-  BOOST_TEST(*scene.crank.shaft == 3141.0);
-  BOOST_TEST(scene.output.torque == 58.0);
-  BOOST_TEST(scene.output.speed == 30 * units::rpm, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(std::isinf(scene.output.support));
-  BOOST_TEST(scene.input.support == 0.0);
+  BOOST_TEST(two_k_v(scene).arc_gear.eccentricity == 0.9e-3, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(two_k_v(scene).arc_gear.count == 2);
+  BOOST_TEST(*two_k_v(scene).crank.shaft == 3141.0);
+  BOOST_TEST(two_k_v(scene).output.torque == 58.0);
+  BOOST_TEST(two_k_v(scene).output.speed == 30 * units::rpm, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(std::isinf(two_k_v(scene).output.support));
+  BOOST_TEST(two_k_v(scene).input.support == 0.0);
   const auto stage = app::two_k_v_kinematics(scene);
   BOOST_TEST(stage.ratio() == 103.0);
   BOOST_TEST(stage.sun_mesh_frequency() == 510.0, boost::test_tools::tolerance(1e-12));
@@ -134,8 +136,8 @@ BOOST_AUTO_TEST_CASE(gears_that_cannot_be_are_refused) {
 BOOST_AUTO_TEST_CASE(every_key_of_the_kind_can_be_varied) {
   const auto scene = parse(test::reducer_scene());
   const auto changed = app::with_overrides(scene, {{"crank.bearing_N_per_m", 2, true}, {"output.torque_Nm", 29}});
-  BOOST_TEST(*changed.crank.bearing == 3e8);
-  BOOST_TEST(changed.output.torque == 29.0);
+  BOOST_TEST(*two_k_v(changed).crank.bearing == 3e8);
+  BOOST_TEST(two_k_v(changed).output.torque == 29.0);
   BOOST_CHECK_THROW((void)app::with_overrides(scene, {{"arc_gear.pin_diameter_mm", 9}}), InputError);
   for (const auto& table : app::schema())
     for (const auto& p : table.parameters)
@@ -148,8 +150,8 @@ BOOST_AUTO_TEST_CASE(a_comparison_computes_what_is_given) {
   const auto scene = parse(text);
   const auto other = app::compared_scene(scene);
   BOOST_REQUIRE(other.has_value());
-  BOOST_TEST((other->arc_pins.stiffness == app::StiffnessShape::computed));
-  BOOST_TEST((other->sun_planet.stiffness == app::StiffnessShape::constant));
+  BOOST_TEST((two_k_v(*other).arc_pins.stiffness == app::StiffnessShape::computed));
+  BOOST_TEST((sun_and_planets(*other).sun_planet.stiffness == app::StiffnessShape::constant));
   BOOST_TEST(!app::compared_scene(parse(test::reducer_scene())).has_value());
   // The table at the nominal load against the equilibrium of all pins.
   const auto result = app::arc_pins_result(*other);

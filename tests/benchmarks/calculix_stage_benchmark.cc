@@ -20,6 +20,7 @@
 #include "app/scene/scene.h"
 #include "app/systems/planetary/stage_geometry.h"
 #include "app/systems/planetary/statics.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "benchmarks/calculix/contact_job.h"
 #include "benchmarks/calculix/stage_job.h"
 #include "benchmarks/stopwatch.h"
@@ -207,7 +208,8 @@ StageJob stage_job(const app::Scene& scene, const app::RingGeometry& ring, doubl
     (pair.with_ring ? ring_teeth : sun_teeth).insert(pair.wheel_tooth);
   }
   StageJob job;
-  const double sun_bore = scene.sun.bore_diameter.value() / 2, planet_bore = scene.planet.bore_diameter.value() / 2;
+  const double sun_bore = sun_and_planets(scene).sun.bore_diameter.value() / 2,
+               planet_bore = sun_and_planets(scene).planet.bore_diameter.value() / 2;
   job.sun.body = gear_body(set.sun(), sun_bore, options.same_mesh, sun_teeth);
   job.sun.body.place(place.sun_angle, Eigen::Vector2d::Zero());
   for (int n = 0; n < set.planets(); ++n) {
@@ -223,8 +225,8 @@ StageJob stage_job(const app::Scene& scene, const app::RingGeometry& ring, doubl
   held.angles = fem::equal_angles(bolts, 0);
   held.pin_diameter = bolt_diameter;
   held.radial_stiffness = held.tangential_stiffness = bolt_stiffness;
-  job.material = app::material_of(scene, scene.sun);
-  job.face_width = app::face_width_of(scene, scene.sun);
+  job.material = app::material_of(scene, sun_and_planets(scene).sun);
+  job.face_width = app::face_width_of(scene, sun_and_planets(scene).sun);
   job.ring_supports = held.supports({set.ring().teeth(), ring.outside_radius, job.face_width, job.material});
   // Sites are those of the mirror image in which ring meshes are solved.
   for (auto& site : job.ring_supports.sites) site.angle = -site.angle;

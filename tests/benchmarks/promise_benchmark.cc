@@ -14,6 +14,7 @@
 #include "app/run/pipeline.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/tradeoff/trade_report.h"
 #include "app/tradeoff/tradeoff.h"
@@ -102,8 +103,8 @@ double run_time(const app::Scene& scene, const std::filesystem::path& folder, co
   app::RunOptions options{.out = folder, .threads = 1};
   if (setting)
     options.remodel = [&](const app::MeshModel& planned) {
-      const bool solid =
-          planned.ring.empty() ? !solid_reason(scene).empty() : !solid_reason(scene, scene.rings.front()).empty();
+      const bool solid = planned.ring.empty() ? !solid_reason(scene).empty()
+                                              : !solid_reason(scene, planetary(scene).rings.front()).empty();
       return setting->applied(planned, solid ? app::AlongFace::varying : app::AlongFace::uniform);
     };
   std::filesystem::remove_all(folder);

@@ -12,6 +12,7 @@
 
 #include "app/model/reuse.h"
 #include "app/scene/overrides.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/stage_geometry.h"
 #include "app/systems/planetary/statics.h"
 #include "benchmarks/stopwatch.h"
@@ -40,7 +41,7 @@ Solved solve(const Case& c, bool other_load, const app::RunOptions& options) {
   auto settings = c.settings;
   if (other_load) settings.push_back(c.other_load);
   auto scene = app::read_scene_with(c.scene, settings);
-  scene.rings.resize(1);  // the others are no part of it
+  planetary(scene).rings.resize(1);  // the others are no part of it
   const Stopwatch watch;
   const auto statics = app::solve_statics(scene, app::make_geometry(scene), app::with_reuse(options));
   Solved solved{watch.wall(), watch.cpu()};

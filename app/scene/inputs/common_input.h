@@ -11,7 +11,6 @@
 #include "dynamics/time_integration/integrate.h"
 #include "fem/choice/wanted_model.h"
 #include "geometry/flank_topography.h"
-#include "geometry/power_flow.h"
 
 namespace annulus::app {
 
@@ -22,22 +21,14 @@ enum class Compare { none, computed };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table, iso_6336, closed_form };
 enum class MeshDamping { in_contact, always };
 enum class TipShortening { none, full };
-enum class RimCoupling { automatic, none, statical, elastic };
 
 inline constexpr double rigid = std::numeric_limits<double>::infinity();
 
 struct StageInput {
   std::string kind{};  ///< name of a registered kind of gear system
   int planets = 0;
-  std::vector<double> planet_angles;  ///< rad; empty: equally spaced
   double module = 0, pressure_angle = 0, helix_angle = 0, face_width = 0, centre_distance = 0;
-  std::optional<geometry::StageMember> held = geometry::StageMember::ring;  ///< absent: none, a differential
-  geometry::StageMember drives = geometry::StageMember::sun;
-  std::optional<double> power, sun_torque, carrier_torque, ring_torque;  ///< W, N m; exactly one is given
-  /// rad/s, counter-clockwise; one is given, two of a differential.
-  std::optional<double> sun_speed, carrier_speed, ring_speed;
   TipShortening tip_shortening = TipShortening::none;
-  double pinion_torque = 0, pinion_speed = 0;  ///< helical_pair
 };
 
 struct MaterialInput {
@@ -47,7 +38,7 @@ struct MaterialInput {
 /// Where a profile shift comes from.
 enum class ShiftSource { given, centre_distance, tip_diameter, root_diameter, span, pins };
 
-/// What sun, planet and ring have in common.
+/// What all gears have in common.
 struct GearInput {
   int teeth = 0;
   double profile_shift = 0;
@@ -78,26 +69,6 @@ struct HubGearInput : GearInput {
   BoreOn bore = BoreOn::hub;
 };
 
-/// An eccentricity turns with its body; a position error is fixed in the housing or on the carrier.
-struct BodyErrorInput {
-  double eccentricity = 0, eccentricity_phase = 0, position = 0, position_phase = 0;
-};
-
-struct ErrorInput {
-  std::vector<double> planet_eccentricity, planet_eccentricity_phase, planet_pin_position, planet_pin_position_phase;
-  /// m, one per tooth; of planets for all alike or one list after the other.
-  std::vector<double> sun_pitch, planet_pitch, ring_pitch;
-  std::optional<int> sun_pitch_class, planet_pitch_class, ring_pitch_class;  ///< they are drawn within
-  int pitch_seed = 0;
-  BodyErrorInput sun, ring, carrier;
-  double sun_planet_misalignment = 0, ring_planet_misalignment = 0;  ///< over the face width, normal to the flanks
-  // Of a helical pair: waves along the normal of the flanks, at mesh frequency and once per turn.
-  std::optional<double> mesh_error;
-  double mesh_error_phase = 0;
-  double pinion_error = 0, pinion_error_phase = 0, wheel_error = 0, wheel_error_phase = 0;
-  double pinion_wheel_misalignment = 0;
-};
-
 /// Mesh stiffness prescribed instead of computed.
 struct MeshInput {
   StiffnessShape stiffness = StiffnessShape::computed;
@@ -115,7 +86,6 @@ struct DynamicsInput {
   double modal_damping_ratio = 0, rayleigh_mass = 0, rayleigh_stiffness = 0;  ///< 1, 1/s, s
   MeshDamping mesh_damping = MeshDamping::in_contact;
   dynamics::LoadDependence load_dependence = dynamics::LoadDependence::table;
-  RimCoupling rim_coupling = RimCoupling::automatic;
   dynamics::BearingLaws bearing_laws = dynamics::BearingLaws::tangents;
   dynamics::Integrator integrator = dynamics::Integrator::automatic;
   std::optional<int> steps_per_cycle;  ///< runge_kutta_4 only

@@ -14,8 +14,7 @@ namespace annulus::app {
 namespace {
 
 toml::table& table_at(toml::table& root, const InputTarget& target, std::size_t entry) {
-  if (!target.rings.empty() || !target.tables.empty())
-    return *root.get(target.parameter->table)->as_array()->get(entry)->as_table();
+  if (!target.tables.empty()) return *root.get(target.parameter->table)->as_array()->get(entry)->as_table();
   toml::table* table = &root;
   std::istringstream path(target.parameter->table);
   for (std::string name; std::getline(path, name, '.');) {

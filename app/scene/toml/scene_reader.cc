@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/scene/flank_files.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_kind.h"
 #include "app/scene/scene_limits.h"
@@ -50,7 +49,6 @@ class Reader {
   /// Conditional defaults, lists of one value per planet, derived values; the rules between keys.
   void complete_and_check() {
     check_key_rules(*own_, scene_, problems_);
-    read_flank_files(scene_, problems_);
     kind_->check(scene_, problems_);
     // Paths are looked up among the inputs, which have to be right for that.
     if (problems_.empty()) check_study_keys(scene_, problems_);
@@ -82,9 +80,8 @@ class Reader {
       table.resize(scene_, array->size());
       for (std::size_t i = 0; i < array->size(); ++i) {
         const auto& entry = *array->get(i)->as_table();
-        const bool ring = table.path == "ring";
-        if (ring) scene_.rings[i].name = entry["name"].value_or(fmt::format("{}", i + 1));
-        read_keys(table, entry, i, ring ? scene_.rings[i].name : "");
+        // One without a name, which is a problem, is told by its number.
+        read_keys(table, entry, i, table.variants ? entry["name"].value_or(fmt::format("{}", i + 1)) : "");
       }
       return;
     }
@@ -111,11 +108,11 @@ class Reader {
     return now.empty() ? "" : fmt::format("is now `{}`", now);
   }
 
-  void read_keys(const Table& table, const toml::table& entry, std::size_t index, const std::string& ring) {
+  void read_keys(const Table& table, const toml::table& entry, std::size_t index, const std::string& variant) {
     if (!table.path.empty()) check_keys(table, entry);
     for (const auto& p : table.parameters) {
       if (hopeless()) return;
-      Input input{.key = p.key(), .ring = ring, .unit = p.unit, .meaning = p.meaning, .entry = index};
+      Input input{.key = p.key(), .variant = variant, .unit = p.unit, .meaning = p.meaning, .entry = index};
       const auto found = entry.find(p.name);
       const auto& at = found == entry.end() ? entry.source() : found->first.source();
       input.line = static_cast<int>(at.begin.line);
@@ -128,7 +125,8 @@ class Reader {
         }
       } else if (p.required(kind_->name)) {
         problem(at, fmt::format("{}: is missing{}; must be {}. {}", p.key(),
-                                ring.empty() ? "" : " for ring '" + shown(ring) + "'", expected_text(p), p.meaning));
+                                variant.empty() ? "" : fmt::format(" for {} '{}'", table.path, shown(variant)),
+                                expected_text(p), p.meaning));
         continue;
       } else {
         input.origin = Origin::default_value;
@@ -136,8 +134,17 @@ class Reader {
         if (!p.default_where_it_applies)
           input.value = p.default_value;  // the others follow with the rules between keys
       }
-      if (!std::holds_alternative<std::monostate>(input.value)) p.store(scene_, index, input.value);
+      if (!std::holds_alternative<std::monostate>(input.value)) store(p, index, input, at);
       scene_.inputs.push_back(std::move(input));
+    }
+  }
+
+  void store(const Parameter& p, std::size_t index, const Input& input, const toml::source_region& at) {
+    try {
+      p.store(scene_, index, input.value);
+    } catch (const InputError& error) {
+      const auto of = input.variant.empty() ? "" : fmt::format(" ({} '{}')", p.table, shown(input.variant));
+      problem(at, fmt::format("{} = {}{}: {}", p.key(), shown(to_text(input.value)), of, error.what()));
     }
   }
 

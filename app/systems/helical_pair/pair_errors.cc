@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/results/content_id.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "core/bytes.h"
 #include "core/csv.h"
 #include "core/files.h"
@@ -44,10 +45,10 @@ LinesOfCauses provenance(const dynamics::ErrorProblem& p) {
 }  // namespace
 
 dynamics::ErrorProblem error_problem(const Scene& scene) {
-  const auto& m = *scene.manufacturing_error;
+  const auto& m = *helical_pair(scene).manufacturing_error;
   dynamics::ErrorProblem problem;
-  problem.gears[0] = {scene.pinion.teeth, m.pinion_total, m.pinion_tooth_to_tooth};
-  problem.gears[1] = {scene.wheel.teeth, m.wheel_total, m.wheel_tooth_to_tooth};
+  problem.gears[0] = {helical_pair(scene).pinion.teeth, m.pinion_total, m.pinion_tooth_to_tooth};
+  problem.gears[1] = {helical_pair(scene).wheel.teeth, m.wheel_total, m.wheel_tooth_to_tooth};
   problem.divisor = m.divisor == ErrorDivisor::printed ? dynamics::printed_divisor : dynamics::exact_divisor();
   problem.samples = m.samples;
   problem.seed = static_cast<std::uint64_t>(m.seed);
@@ -57,19 +58,19 @@ dynamics::ErrorProblem error_problem(const Scene& scene) {
 }
 
 const dynamics::ErrorReading* PairErrors::taken(const Scene& scene) const {
-  if (!law || scene.manufacturing_error->reading == "none") return nullptr;
-  return &law->at(scene.manufacturing_error->reading);
+  if (!law || helical_pair(scene).manufacturing_error->reading == "none") return nullptr;
+  return &law->at(helical_pair(scene).manufacturing_error->reading);
 }
 
 PairErrors pair_errors(const Scene& scene) {
   PairErrors errors;
-  errors.amplitude = scene.errors.mesh_error.value_or(0);
-  if (!scene.manufacturing_error) return errors;
+  errors.amplitude = helical_pair(scene).errors.mesh_error.value_or(0);
+  if (!helical_pair(scene).manufacturing_error) return errors;
   errors.problem = error_problem(scene);
   errors.law = law_of(*errors.problem);
   if (const auto* reading = errors.taken(scene))
     errors.amplitude =
-        scene.manufacturing_error->amount == ErrorAmount::sample ? reading->sample.value : reading->exact;
+        helical_pair(scene).manufacturing_error->amount == ErrorAmount::sample ? reading->sample.value : reading->exact;
   return errors;
 }
 

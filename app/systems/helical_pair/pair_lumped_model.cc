@@ -7,6 +7,7 @@
 #include "app/model/excitation.h"
 #include "app/model/table_errors.h"
 #include "app/results/cached_value.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/shared/friction_losses.h"
 #include "app/systems/shared/mesh_names.h"
 #include "app/systems/shared/space_members.h"
@@ -83,7 +84,7 @@ FigureSet pair_losses(const Scene& scene, const PairGeometry& geometry, const Pa
   FigureSet figures;
   if (!has_friction(scene)) return figures;
   add_losses(figures, {mesh_losses(scene, pinion_wheel, rolling_mesh(scene, geometry), shares, 1)},
-             std::abs(scene.stage.pinion_torque) * scene.stage.pinion_speed);
+             std::abs(helical_pair(scene).stage.pinion_torque) * helical_pair(scene).stage.pinion_speed);
   return figures;
 }
 

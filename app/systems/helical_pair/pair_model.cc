@@ -6,6 +6,7 @@
 #include "app/model/excitation.h"
 #include "app/model/stiff_supports.h"
 #include "app/plan/gear_geometry.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/pair_space.h"
 #include "app/systems/shared/rotors.h"
 #include "core/errors.h"
@@ -33,7 +34,7 @@ dynamics::PairGear lumped_gear(const Scene& scene, const PairGearInput& input, c
 
 /// Hz
 double mesh_frequency(const Scene& scene) {
-  return scene.pinion.teeth * scene.stage.pinion_speed / (2 * std::numbers::pi);
+  return helical_pair(scene).pinion.teeth * helical_pair(scene).stage.pinion_speed / (2 * std::numbers::pi);
 }
 
 }  // namespace
@@ -43,9 +44,10 @@ double PairGeometry::to_normal() const { return 1 / std::pow(std::cos(base_helix
 double pair_centre_distance(const Scene& scene) {
   const auto& stage = scene.stage;
   if (stage.centre_distance > 0) return stage.centre_distance;
-  const auto gear = pair_gear(scene, scene.pinion, "pinion", 1);
-  const int teeth = scene.pinion.teeth + scene.wheel.teeth;
-  const double shift = scene.pinion.profile_shift + scene.wheel.profile_shift, at = gear.transverse_pressure_angle();
+  const auto gear = pair_gear(scene, helical_pair(scene).pinion, "pinion", 1);
+  const int teeth = helical_pair(scene).pinion.teeth + helical_pair(scene).wheel.teeth;
+  const double shift = helical_pair(scene).pinion.profile_shift + helical_pair(scene).wheel.profile_shift,
+               at = gear.transverse_pressure_angle();
   // inv(working angle) [ISO21771].
   const double inv = geometry::involute(at) + 2 * std::tan(stage.pressure_angle) * shift / teeth;
   if (inv < 0)
@@ -62,13 +64,13 @@ std::optional<double> pair_inertia(const Scene& scene, const PairGearInput& gear
 }
 
 PairGeometry make_pair_geometry(const Scene& scene) {
-  const auto pinion = pair_gear(scene, scene.pinion, "pinion", 1);
-  const auto wheel = pair_gear(scene, scene.wheel, "wheel", -1);
+  const auto pinion = pair_gear(scene, helical_pair(scene).pinion, "pinion", 1);
+  const auto wheel = pair_gear(scene, helical_pair(scene).wheel, "wheel", -1);
   const double distance = pair_centre_distance(scene);
   return {.gears = geometry_of("pinion (as planet) and wheel",
                                [&] { return geometry::GearPair(pinion, wheel, distance, geometry::Driver::pinion); }),
           .base_helix_angle = std::abs(pinion.base_helix_angle()),
-          .transverse_force = std::abs(scene.stage.pinion_torque) / pinion.base_radius()};
+          .transverse_force = std::abs(helical_pair(scene).stage.pinion_torque) / pinion.base_radius()};
 }
 
 RollingMesh rolling_mesh(const Scene& scene, const PairGeometry& geometry) {
@@ -79,10 +81,10 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
                                 double mesh_error, const PairFlanks& flanks) {
   if (!scene.dynamics) throw InternalError("internal error: dynamics of a scene without [dynamics]");
   const auto& d = *scene.dynamics;
-  const auto& e = scene.errors;
+  const auto& e = helical_pair(scene).errors;
   dynamics::HelicalPair pair;
-  pair.pinion = lumped_gear(scene, scene.pinion, geometry.pinion(), e.pinion_error, e.pinion_error_phase);
-  pair.wheel = lumped_gear(scene, scene.wheel, geometry.wheel(), e.wheel_error, e.wheel_error_phase);
+  pair.pinion = lumped_gear(scene, helical_pair(scene).pinion, geometry.pinion(), e.pinion_error, e.pinion_error_phase);
+  pair.wheel = lumped_gear(scene, helical_pair(scene).wheel, geometry.wheel(), e.wheel_error, e.wheel_error_phase);
   const double stiffness = dynamics::mean_stiffness(mesh);
   for (auto* gear : {&pair.pinion, &pair.wheel})
     for (auto* bearing : {&gear->bearing_transverse, &gear->bearing_axial})
@@ -92,17 +94,17 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
   pair.working_angle = geometry.gears.working_pressure_angle();
   pair.mesh = mesh;
   pair.mesh_error = {mesh_error, e.mesh_error_phase};
-  pair.half_backlash = scene.pinion_wheel.half_backlash.value_or(d.half_backlash);
-  pair.mesh_damping_ratio = scene.pinion_wheel.damping_ratio.value_or(d.mesh_damping_ratio);
+  pair.half_backlash = helical_pair(scene).pinion_wheel.half_backlash.value_or(d.half_backlash);
+  pair.mesh_damping_ratio = helical_pair(scene).pinion_wheel.damping_ratio.value_or(d.mesh_damping_ratio);
   pair.bearing_damping_ratio = d.support_damping_ratio;
-  pair.pinion.damping_ratio = scene.pinion.damping_ratio;
-  pair.wheel.damping_ratio = scene.wheel.damping_ratio;
+  pair.pinion.damping_ratio = helical_pair(scene).pinion.damping_ratio;
+  pair.wheel.damping_ratio = helical_pair(scene).wheel.damping_ratio;
   pair.structural_damping = structural_damping(d);
   pair.damping_without_contact = d.mesh_damping == MeshDamping::always;
   pair.friction = flank_friction(scene, rolling_mesh(scene, geometry), flanks.shares, MeshForces::normal);
   pair.film = squeeze_film(scene, geometry.gears, MeshForces::normal);
-  pair.pinion_speed = scene.stage.pinion_speed;
-  pair.pinion_torque = scene.stage.pinion_torque;
+  pair.pinion_speed = helical_pair(scene).stage.pinion_speed;
+  pair.pinion_torque = helical_pair(scene).stage.pinion_torque;
   pair.rotors = rotors_of(scene);
   if (pair_in_space(scene)) put_in_space(pair, scene, geometry, flanks.face);
   return pair;

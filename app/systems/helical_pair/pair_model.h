@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/scene/scene.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/shared/friction.h"
 #include "core/face_shape.h"
 #include "dynamics/steady_state/steady_response.h"

@@ -7,6 +7,7 @@
 #include "app/model/excitation.h"
 #include "app/model/stiff_supports.h"
 #include "app/plan/gear_geometry.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_space.h"
 #include "app/systems/shared/mesh_names.h"
@@ -20,7 +21,8 @@ namespace {
 std::vector<Quantity> pair_quantities(const Scene& scene, const PairGeometry& geometry) {
   const auto &pinion = geometry.pinion(), &wheel = geometry.wheel();
   const auto& gears = geometry.gears;
-  const double speed = scene.stage.pinion_speed, ratio = static_cast<double>(wheel.teeth()) / pinion.teeth();
+  const double speed = helical_pair(scene).stage.pinion_speed,
+               ratio = static_cast<double>(wheel.teeth()) / pinion.teeth();
   return {quantity("ratio", ratio, "wheel teeth / pinion teeth"),
           quantity("centre_distance_mm", gears.centre_distance(), "working centre distance"),
           quantity("transverse_pressure_angle_deg", pinion.transverse_pressure_angle(), "transverse pressure angle"),
@@ -32,7 +34,7 @@ std::vector<Quantity> pair_quantities(const Scene& scene, const PairGeometry& ge
           quantity("pinion_base_radius_mm", pinion.base_radius(), "base radius of the pinion"),
           quantity("wheel_base_radius_mm", wheel.base_radius(), "base radius of the wheel"),
           quantity("wheel_speed_rpm", speed / ratio, "speed of the wheel"),
-          quantity("wheel_torque_Nm", scene.stage.pinion_torque * ratio, "torque of the wheel"),
+          quantity("wheel_torque_Nm", helical_pair(scene).stage.pinion_torque * ratio, "torque of the wheel"),
           quantity("mesh_frequency_Hz", pinion.teeth() * speed / (2 * std::numbers::pi), "mesh frequency"),
           quantity("transverse_force_N", geometry.transverse_force, "mesh force along the transverse line of action"),
           quantity("normal_force_N", geometry.transverse_force / std::cos(geometry.base_helix_angle),
@@ -43,9 +45,10 @@ std::vector<Quantity> pair_quantities(const Scene& scene, const PairGeometry& ge
 
 std::vector<DofPlan> pair_dofs(const Scene& scene) {
   std::vector<DofPlan> list;
-  const double mesh = rough_stiffness(scene, scene.pinion_wheel, narrower_face(scene, scene.pinion, scene.wheel));
-  for (const auto& [name, gear] :
-       {std::pair<std::string, const PairGearInput&>{"pinion", scene.pinion}, {"wheel", scene.wheel}}) {
+  const double mesh = rough_stiffness(scene, helical_pair(scene).pinion_wheel,
+                                      narrower_face(scene, helical_pair(scene).pinion, helical_pair(scene).wheel));
+  for (const auto& [name, gear] : {std::pair<std::string, const PairGearInput&>{"pinion", helical_pair(scene).pinion},
+                                   {"wheel", helical_pair(scene).wheel}}) {
     const auto add = [&, gear = name](const char* axis, const char* bearing, double stiffness) {
       list.push_back(supported_dof(gear + axis, bearing, stiffness, rigid_if_stiff(stiffness, mesh, scene.accuracy)));
     };
@@ -66,11 +69,11 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
       "Stiffness, error and backlash of the lumped model act along the normal of the flanks. A stiffness table is for "
       "the transverse section; it is converted with cos² of the base helix angle.");
   if (scene.dynamics) {
-    if (!scene.pinion.inertia || !scene.wheel.inertia)
+    if (!helical_pair(scene).pinion.inertia || !helical_pair(scene).wheel.inertia)
       list.emplace_back("If an inertia is not given, it is that of a solid disc of the given mass.");
     // A gear heavier than its disc has a shaft, a lighter one a web: either makes the disc's inertia a guess.
-    for (const auto& [name, gear, input] :
-         {std::tuple{"pinion", &geometry.pinion(), &scene.pinion}, {"wheel", &geometry.wheel(), &scene.wheel}}) {
+    for (const auto& [name, gear, input] : {std::tuple{"pinion", &geometry.pinion(), &helical_pair(scene).pinion},
+                                            {"wheel", &geometry.wheel(), &helical_pair(scene).wheel}}) {
       const double r = gear->reference_radius();
       const double disc = std::numbers::pi * r * r * face_width_of(scene, *input) * material_of(scene, *input).density;
       if (input->mass && std::abs(*input->mass / disc - 1) > 0.25)
@@ -86,9 +89,9 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
 }  // namespace
 
 dynamics::HelicalPair rough_pair(const Scene& scene, RoughCourse course) {
-  const Scene rough =
-      with_rough_stiffness(scene, {{&Scene::pinion_wheel, narrower_face(scene, scene.pinion, scene.wheel)}}, course);
-  const auto mesh = excitation_of(rough.pinion_wheel, unread_table(pinion_wheel), 0, dynamics::LoadDependence::nominal);
+  const auto& input = helical_pair(scene);
+  const auto rough = rough_mesh(scene, input.pinion_wheel, narrower_face(scene, input.pinion, input.wheel), course);
+  const auto mesh = excitation_of(rough, unread_table(pinion_wheel), 0, dynamics::LoadDependence::nominal);
   return make_pair(scene, make_pair_geometry(scene), mesh, 0);
 }
 
@@ -96,17 +99,17 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene) {
   if (!scene.dynamics) return {};
   // Four motions give the shares at one torque, three the causes at one speed, by harmonic balance.
   double shares = 0;
-  if (scene.transmission_error)
-    shares = 4.0 * static_cast<double>(scene.transmission_error->pinion_torques.size()) +
-             3.0 * static_cast<double>(scene.transmission_error->pinion_speeds.size());
+  if (helical_pair(scene).transmission_error)
+    shares = 4.0 * static_cast<double>(helical_pair(scene).transmission_error->pinion_torques.size()) +
+             3.0 * static_cast<double>(helical_pair(scene).transmission_error->pinion_speeds.size());
   // Draws of [manufacturing_error]: four numbers of both gears and those that are sorted.
   constexpr double seconds_of_draw = 3.3e-7, MB_of_draw = 9e-5;
-  const double draws = scene.manufacturing_error ? scene.manufacturing_error->samples : 0;
+  const double draws = helical_pair(scene).manufacturing_error ? helical_pair(scene).manufacturing_error->samples : 0;
   const auto pair = rough_pair(scene);
   const int period = pair.error_period();
   const auto system = assemble(pair);
   const auto options = pair_simulation(scene);
-  const bool computed = scene.pinion_wheel.stiffness == StiffnessShape::computed;
+  const bool computed = helical_pair(scene).pinion_wheel.stiffness == StiffnessShape::computed;
   const auto stiffness = computed ? dynamics::StiffnessCourse::sudden : dynamics::StiffnessCourse::smooth;
   auto without_search = options;
   without_search.other_motions.starts = 0;

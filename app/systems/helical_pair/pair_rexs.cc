@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/rexs/rexs_writer.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/pair_model.h"
 
 namespace annulus::app {
@@ -12,8 +13,8 @@ std::string pair_rexs(const Scene& scene) {
   RexsWriter rexs(scene);
   auto unit = rexs.component("gear_unit", scene.title);
   rexs.custom_attributes(unit, {"stage", "errors", "dynamics", "mesh.pinion_wheel"});
-  auto pinion = rexs.gear("pinion", scene.pinion, geometry.pinion());
-  auto wheel = rexs.gear("wheel", scene.wheel, geometry.wheel());
+  auto pinion = rexs.gear("pinion", helical_pair(scene).pinion, geometry.pinion());
+  auto wheel = rexs.gear("wheel", helical_pair(scene).wheel, geometry.wheel());
   rexs.custom_attributes(pinion, {"pinion"});
   rexs.custom_attributes(wheel, {"wheel"});
   rexs.stage("pinion - wheel", pair_centre_distance(scene), unit, pinion, wheel);

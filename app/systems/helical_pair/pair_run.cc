@@ -7,6 +7,7 @@
 #include "app/model/time_series.h"
 #include "app/results/content_id.h"
 #include "app/run/pipeline.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/pair_lumped_model.h"
 #include "app/systems/helical_pair/pair_space.h"
 #include "core/errors.h"
@@ -83,10 +84,10 @@ ShareRow share_row(const LumpedPair& nominal, double torque) {
   try {
     // The scene at another torque: a tabulated stiffness belongs to its load.
     auto scene = nominal.scene;
-    scene.stage.pinion_torque = torque;
+    helical_pair(scene).stage.pinion_torque = torque;
     auto geometry = nominal.geometry;
     geometry.transverse_force = torque / geometry.pinion().base_radius();
-    const bool closed_form = scene.pinion_wheel.stiffness == StiffnessShape::closed_form;
+    const bool closed_form = helical_pair(scene).pinion_wheel.stiffness == StiffnessShape::closed_form;
     const auto pair = lumped_pair(scene, geometry,
                                   closed_form ? pair_stiffness(scene, geometry, nominal.mesh.model, {}) : nominal.mesh,
                                   nominal.mesh_error)
@@ -106,7 +107,7 @@ ShareRow share_row(const LumpedPair& nominal, double torque) {
 SpeedRow speed_row(const LumpedPair& nominal, double speed) {
   SpeedRow row{.pinion_speed = speed};
   auto scene = nominal.scene;
-  scene.stage.pinion_speed = speed;
+  helical_pair(scene).stage.pinion_speed = speed;
   const auto simulation = without_confirmation(scene);
   auto pair = nominal.pair;
   pair.pinion_speed = speed;
@@ -189,14 +190,14 @@ std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshRes
   if (!response.space.faces.empty()) write_table(face_loads_table(response.space), id, folder / "face_loads.csv");
   log::info(fmt::format("dynamics: {} mesh cycles integrated, {}", f.total_cycles,
                         f.steady ? "periodic steady state" : "no periodic steady state"));
-  if (!scene.transmission_error) return result;
+  if (!helical_pair(scene).transmission_error) return result;
   const auto fill = [&](auto& rows, const std::vector<double>& values, auto row_of) {
     rows.resize(values.size());
     for_each_task(values.size(), options.threads, [&](std::size_t i) { rows[i] = row_of(lumped, values[i]); });
   };
-  fill(result->shares, scene.transmission_error->pinion_torques, share_row);
+  fill(result->shares, helical_pair(scene).transmission_error->pinion_torques, share_row);
   save_shares(result->shares, folder);
-  fill(result->speeds, scene.transmission_error->pinion_speeds, speed_row);
+  fill(result->speeds, helical_pair(scene).transmission_error->pinion_speeds, speed_row);
   if (!result->speeds.empty()) save_speeds(result->speeds, folder);
   return result;
 }

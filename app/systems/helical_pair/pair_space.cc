@@ -10,6 +10,7 @@
 
 #include "app/plan/gear_geometry.h"
 #include "app/scene/input_place.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/shared/bearing_words.h"
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/space_input.h"
@@ -32,10 +33,11 @@ dynamics::SpatialPair spatial_pair(const Scene& scene, const PairGeometry& geome
   pair.working_angle = angle;
   pair.working_radius_pinion = geometry.pinion().base_radius() / std::cos(angle);
   pair.working_radius_wheel = geometry.wheel().base_radius() / std::cos(angle);
-  pair.pinion_torque = scene.stage.pinion_torque;
+  pair.pinion_torque = helical_pair(scene).stage.pinion_torque;
   for (const auto& input : space.bearings) pair.bearings.push_back(stage_bearing(input, {input.body}, input.name));
   // A gear without bearings has those of its table in the middle; it tilts only where others hold it.
-  for (const auto& [body, gear] : {std::pair{Body::pinion, &scene.pinion}, {Body::wheel, &scene.wheel}}) {
+  for (const auto& [body, gear] :
+       {std::pair{Body::pinion, &helical_pair(scene).pinion}, {Body::wheel, &helical_pair(scene).wheel}}) {
     if (space.has_radial_bearing(body)) continue;
     const bool any = space.has_bearing(body);
     dynamics::StageBearing support;
@@ -49,8 +51,8 @@ dynamics::SpatialPair spatial_pair(const Scene& scene, const PairGeometry& geome
   for (const auto& input : space.loads) pair.loads.push_back(stage_load(input, {input.body}, input.name));
   if (space.gravity) {
     pair.gravity = space.gravity->vector();
-    pair.weights = {{{Body::pinion}, *scene.pinion.mass, space.gravity->pinion},
-                    {{Body::wheel}, *scene.wheel.mass, space.gravity->wheel}};
+    pair.weights = {{{Body::pinion}, *helical_pair(scene).pinion.mass, space.gravity->pinion},
+                    {{Body::wheel}, *helical_pair(scene).wheel.mass, space.gravity->wheel}};
   }
   return pair;
 }
@@ -58,8 +60,8 @@ dynamics::SpatialPair spatial_pair(const Scene& scene, const PairGeometry& geome
 /// Before its mesh is solved.
 dynamics::SpatialPair unsolved_pair(const Scene& scene, const PairGeometry& geometry) {
   auto pair = spatial_pair(scene, geometry);
-  pair.face = motion_face(geometry.gears, scene.pinion_wheel, nullptr, scene.errors.pinion_wheel_misalignment,
-                          GapsAlong::normal);
+  pair.face = motion_face(geometry.gears, helical_pair(scene).pinion_wheel, nullptr,
+                          helical_pair(scene).errors.pinion_wheel_misalignment, GapsAlong::normal);
   return pair;
 }
 
@@ -89,12 +91,12 @@ void put_in_space(dynamics::HelicalPair& pair, const Scene& scene, const PairGeo
     return tilt_inertia(scene,
                         {name, given, *gear.mass, *pair_inertia(scene, gear), face_width_of(scene, gear), centre});
   };
-  const double of_pinion = tilting_of("pinion", tilting.pinion, scene.pinion, gravity.pinion);
-  const double of_wheel = tilting_of("wheel", tilting.wheel, scene.wheel, gravity.wheel);
+  const double of_pinion = tilting_of("pinion", tilting.pinion, helical_pair(scene).pinion, gravity.pinion);
+  const double of_wheel = tilting_of("wheel", tilting.wheel, helical_pair(scene).wheel, gravity.wheel);
   auto spatial = spatial_pair(scene, geometry);
   spatial.stiffness = dynamics::mean_stiffness(pair.mesh);
-  spatial.face =
-      motion_face(geometry.gears, scene.pinion_wheel, face, scene.errors.pinion_wheel_misalignment, GapsAlong::normal);
+  spatial.face = motion_face(geometry.gears, helical_pair(scene).pinion_wheel, face,
+                             helical_pair(scene).errors.pinion_wheel_misalignment, GapsAlong::normal);
   about(scene, "bearing", [&] { pair.space = dynamics::pair_about_equilibrium(spatial, of_pinion, of_wheel); });
   pair.space->laws = scene.dynamics->bearing_laws;
   pair.space->mass_place_pinion = gravity.pinion;
@@ -108,7 +110,8 @@ MovingFaces moving_pair_face(const Scene& scene, const PairGeometry& geometry, c
     const double force = geometry.transverse_force / std::cos(geometry.base_helix_angle);
     return {[=](std::size_t, double cycles) { return solid->at(cycles, force); }};
   }
-  const auto even = even_stations(geometry.gears, scene.pinion_wheel, scene.errors.pinion_wheel_misalignment);
+  const auto even = even_stations(geometry.gears, helical_pair(scene).pinion_wheel,
+                                  helical_pair(scene).errors.pinion_wheel_misalignment);
   const auto law = std::make_shared<const dynamics::EvenFace>(dynamics::mean_stiffness(pair.mesh), even.at, even.gap);
   return {[law](std::size_t, double) { return law; }};
 }
@@ -141,8 +144,8 @@ std::vector<Warning> pair_space_warnings(const Scene& scene) {
   const auto& space = scene.own<SpaceInput>();
   std::vector<std::string> held, assumed;
   for (const auto& [body, name, gear, tilting] :
-       {std::tuple{Body::pinion, "pinion", &scene.pinion, &space.tilt_inertia.pinion},
-        {Body::wheel, "wheel", &scene.wheel, &space.tilt_inertia.wheel}}) {
+       {std::tuple{Body::pinion, "pinion", &helical_pair(scene).pinion, &space.tilt_inertia.pinion},
+        {Body::wheel, "wheel", &helical_pair(scene).wheel, &space.tilt_inertia.wheel}}) {
     if (!space.has_bearing(body)) held.emplace_back(name);
     if (!*tilting) assumed.push_back(fmt::format("tilt_inertia.{}_kg_m2", name));
     const auto key = fmt::format("{}.bearing_transverse_N_per_m", name);

@@ -7,6 +7,7 @@
 
 #include "app/model/excitation.h"
 #include "app/model/mesh_solve.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/pair_space.h"
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/mesh_names.h"
@@ -24,13 +25,13 @@ GearMesh external_pair(const Scene& scene, const PairGeometry& geometry) {
   return {.mesh = pinion_wheel,
           .title = "mesh of pinion and wheel",
           .pair = geometry.gears,
-          .input = scene.pinion_wheel,
-          .planet = scene.pinion,
-          .wheel = scene.wheel,
+          .input = helical_pair(scene).pinion_wheel,
+          .planet = helical_pair(scene).pinion,
+          .wheel = helical_pair(scene).wheel,
           .planet_name = "pinion",
           .wheel_name = "wheel",
-          .wheel_support_diameter = scene.wheel.bore_diameter,
-          .misalignment = scene.errors.pinion_wheel_misalignment,
+          .wheel_support_diameter = helical_pair(scene).wheel.bore_diameter,
+          .misalignment = helical_pair(scene).errors.pinion_wheel_misalignment,
           .mean_force = geometry.transverse_force,
           .why_it_tilts = why_gears_tilt(scene, geometry)};
 }
@@ -47,8 +48,9 @@ MeshModel pair_mesh_model(const Scene& scene, const PairGeometry& geometry) {
     model.fidelity = fidelity;
     model.reason = fmt::format("{} (stiffness = \"{}\")", what, shape);
   };
-  if (scene.pinion_wheel.stiffness == StiffnessShape::iso_6336) asked("formula", "ISO 6336-1, method B", "iso_6336");
-  if (scene.pinion_wheel.stiffness == StiffnessShape::closed_form)
+  if (helical_pair(scene).pinion_wheel.stiffness == StiffnessShape::iso_6336)
+    asked("formula", "ISO 6336-1, method B", "iso_6336");
+  if (helical_pair(scene).pinion_wheel.stiffness == StiffnessShape::closed_form)
     asked("closed_form", "tooth formulas of the transverse section, staggered along the helix", "closed_form");
   return model;
 }
@@ -58,38 +60,40 @@ std::string pair_solid_reason(const Scene& scene, const PairGeometry& geometry) 
 }
 
 double iso_pair_stiffness(const Scene& scene, const PairGeometry& geometry) {
-  return dynamics::iso_6336_mesh_stiffness({geometry.gears.common_face().width, geometry.gears.contact_ratio(),
-                                            scene.stage.helix_angle,
-                                            scene.pinion_wheel.single_stiffness.value_or(steel_single_stiffness)});
+  return dynamics::iso_6336_mesh_stiffness(
+      {geometry.gears.common_face().width, geometry.gears.contact_ratio(), scene.stage.helix_angle,
+       helical_pair(scene).pinion_wheel.single_stiffness.value_or(steel_single_stiffness)});
 }
 
 std::string no_closed_form(const Scene& scene, const PairGeometry& geometry) {
   auto why = fem::no_helical_closed_form(geometry.pinion().parameters(), geometry.wheel().parameters(),
-                                         scene.errors.pinion_wheel_misalignment);
+                                         helical_pair(scene).errors.pinion_wheel_misalignment);
   if (!why.empty()) return why;
-  if (!scene.pinion.bore_diameter || !scene.wheel.bore_diameter) return "it needs bore_diameter_mm of both gears";
-  return scene.stage.pinion_torque == 0 ? "it needs a torque" : "";
+  if (!helical_pair(scene).pinion.bore_diameter || !helical_pair(scene).wheel.bore_diameter)
+    return "it needs bore_diameter_mm of both gears";
+  return helical_pair(scene).stage.pinion_torque == 0 ? "it needs a torque" : "";
 }
 
 StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& geometry, double transverse_force) {
   if (const auto why = no_closed_form(scene, geometry); !why.empty()) throw InputError("no closed form: " + why);
   const auto face = geometry.gears.common_face();
-  fem::LoadedMeshProblem problem{.pair = geometry.gears,
-                                 .materials = {material_of(scene, scene.pinion), material_of(scene, scene.wheel)},
-                                 .face_width = face.width,
-                                 .planet_bore_radius = *scene.pinion.bore_diameter / 2,
-                                 .wheel_support_radius = *scene.wheel.bore_diameter / 2,
-                                 .planet_overhang = face.pinion,
-                                 .wheel_overhang = face.wheel,
-                                 .phases = 64,
-                                 .name = pinion_wheel};
+  fem::LoadedMeshProblem problem{
+      .pair = geometry.gears,
+      .materials = {material_of(scene, helical_pair(scene).pinion), material_of(scene, helical_pair(scene).wheel)},
+      .face_width = face.width,
+      .planet_bore_radius = *helical_pair(scene).pinion.bore_diameter / 2,
+      .wheel_support_radius = *helical_pair(scene).wheel.bore_diameter / 2,
+      .planet_overhang = face.pinion,
+      .wheel_overhang = face.wheel,
+      .phases = 64,
+      .name = pinion_wheel};
   for (const double factor : fem::table_load_factors) problem.loads.push_back(factor * transverse_force);
   return fem::helical_closed_form(problem);
 }
 
 MeshResult pair_stiffness(const Scene& scene, const PairGeometry& geometry, const MeshModel& model,
                           const RunOptions& options) {
-  const auto& input = scene.pinion_wheel;
+  const auto& input = helical_pair(scene).pinion_wheel;
   if (model.computed()) {
     auto result = computed_stiffness(model, "", options);
     if (options.with_dynamics && scene.dynamics && pair_in_space(scene))
@@ -112,7 +116,7 @@ PairMesh::PairMesh(const MeshResult& mesh) : model(mesh.model) {
 
 dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry& geometry,
                                          const StiffnessTable& table) {
-  auto input = scene.pinion_wheel;
+  auto input = helical_pair(scene).pinion_wheel;
   if (input.stiffness == StiffnessShape::iso_6336) {
     input.mean = iso_pair_stiffness(scene, geometry);
     input.stiffness = input.ripple.value_or(0) == 0 ? StiffnessShape::constant : StiffnessShape::harmonic;
@@ -124,7 +128,7 @@ dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry&
 }
 
 std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeometry& geometry, const PairMesh& mesh) {
-  const auto shape = scene.pinion_wheel.stiffness;
+  const auto shape = helical_pair(scene).pinion_wheel.stiffness;
   std::vector<MeanStiffness> list;
   list.push_back({"iso_6336", iso_pair_stiffness(scene, geometry), not_known,
                   "ISO 6336-1 method B: c′ cos β (0.75 ε_α + 0.25) b", shape == StiffnessShape::iso_6336});
@@ -150,7 +154,7 @@ std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeomet
   }
   list.push_back(computed);
   if (std::none_of(list.begin(), list.end(), [](const auto& s) { return s.taken; })) {
-    double value = scene.pinion_wheel.mean.value_or(0);
+    double value = helical_pair(scene).pinion_wheel.mean.value_or(0);
     if (mesh.table) {
       const auto& loads = mesh.table->loads();
       value = geometry.to_normal() *

@@ -9,6 +9,7 @@
 #include "app/plan/plan.h"
 #include "app/results/content_id.h"
 #include "app/scene/example_scenes.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/pair_lumped_model.h"
 #include "app/systems/helical_pair/pair_rexs.h"
 #include "app/systems/helical_pair/pair_run.h"
@@ -27,7 +28,8 @@ class PairSystem final : public GearSystem {
   using GearSystem::GearSystem;
 
   [[nodiscard]] std::string describe() const override {
-    return fmt::format("helical pair, {} and {} teeth", scene().pinion.teeth, scene().wheel.teeth);
+    return fmt::format("helical pair, {} and {} teeth", helical_pair(scene()).pinion.teeth,
+                       helical_pair(scene()).wheel.teeth);
   }
 
   void check() const override {
@@ -96,7 +98,7 @@ class PairSystem final : public GearSystem {
 
   [[nodiscard]] std::vector<TurningBody> turning_bodies() const override {
     const auto geometry = make_pair_geometry(scene());
-    const double speed = scene().stage.pinion_speed, torque = scene().stage.pinion_torque,
+    const double speed = helical_pair(scene()).stage.pinion_speed, torque = helical_pair(scene()).stage.pinion_torque,
                  ratio = geometry.wheel().base_radius() / geometry.pinion().base_radius();
     return {{"pinion", geometry.pinion().base_radius(), speed, torque},
             {"wheel", geometry.wheel().base_radius(), -speed / ratio, torque * ratio}};
@@ -126,7 +128,7 @@ class PairSystem final : public GearSystem {
       list.insert(list.end(), space.begin(), space.end());
     }
     if (scene().dynamics)
-      warn_of_backlash(list, scene().pinion_wheel.half_backlash.value_or(scene().dynamics->half_backlash),
+      warn_of_backlash(list, helical_pair(scene()).pinion_wheel.half_backlash.value_or(scene().dynamics->half_backlash),
                        geometry.gears, "");
     return list;
   }

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "app/scene/gear_tables.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/pair_scene.h"
 #include "app/systems/shared/friction.h"
 #include "app/systems/shared/rotors.h"
@@ -19,16 +20,17 @@ Table pair_stage_table() {
       .absent("the distance without backlash, from the profile shifts")
       .required_if(is("tip_shortening", {"full"}));
   declare_tip_shortening(stage);
-  stage
-      .key("pinion_torque_Nm", &StageInput::pinion_torque,
-           "Torque that drives the pinion. Negative: the back flanks carry it.")
+  Declarations own("stage", "", &PairInput::stage);
+  own.key("pinion_torque_Nm", &PairStageInput::pinion_torque,
+          "Torque that drives the pinion. Negative: the back flanks carry it.")
       .from(-1e9, 1e9)
       .required();
-  stage.key("pinion_speed_rpm", &StageInput::pinion_speed, "Speed of the pinion.").above(0, 1e6).required();
+  own.key("pinion_speed_rpm", &PairStageInput::pinion_speed, "Speed of the pinion.").above(0, 1e6).required();
+  stage.add(own.done());
   return stage.done();
 }
 
-Table pair_gear_table(const char* path, const char* meaning, PairGearInput Scene::*member) {
+Table pair_gear_table(const char* path, const char* meaning, PairGearInput PairInput::*member) {
   Declarations gear(path, meaning, member);
   declare_teeth(gear, Flanks::external, "other gear");
   declare_mass(gear);
@@ -55,27 +57,28 @@ Table pair_gear_table(const char* path, const char* meaning, PairGearInput Scene
 }
 
 Table pair_errors_table() {
-  Declarations errors("errors", "Manufacturing errors.", &Scene::errors);
+  Declarations errors("errors", "Manufacturing errors.", &PairInput::errors);
   errors.optional();
-  const auto wave = [&](const char* name, double ErrorInput::*member, const char* meaning, double limit) {
+  const auto wave = [&](const char* name, double PairErrorInput::*member, const char* meaning, double limit) {
     return errors.key(name, member, meaning).fallback(0.0, "no error").from(-limit, limit);
   };
   errors
-      .key("mesh_error_um", &ErrorInput::mesh_error,
+      .key("mesh_error_um", &PairErrorInput::mesh_error,
            "Amplitude of the error at mesh frequency, along the normal of the flanks.")
       .from(-1e4, 1e4)
       .refused_if(given("[manufacturing_error]") && !is("manufacturing_error.reading", {"none"}),
                   "the error at mesh frequency follows from that table; leave one out, or set "
                   "manufacturing_error.reading = \"none\"")
       .absent("the reading of [manufacturing_error], or none");
-  wave("mesh_error_phase_deg", &ErrorInput::mesh_error_phase, "Its phase: e sin(2π mesh frequency t + phase).", 360);
-  wave("pinion_error_um", &ErrorInput::pinion_error,
+  wave("mesh_error_phase_deg", &PairErrorInput::mesh_error_phase, "Its phase: e sin(2π mesh frequency t + phase).",
+       360);
+  wave("pinion_error_um", &PairErrorInput::pinion_error,
        "Amplitude of the pinion's error once per turn, along the normal of the flanks.", 1e4);
-  wave("pinion_error_phase_deg", &ErrorInput::pinion_error_phase, "Its phase.", 360);
-  wave("wheel_error_um", &ErrorInput::wheel_error,
+  wave("pinion_error_phase_deg", &PairErrorInput::pinion_error_phase, "Its phase.", 360);
+  wave("wheel_error_um", &PairErrorInput::wheel_error,
        "Amplitude of the wheel's error once per turn, along the normal of the flanks.", 1e4);
-  wave("wheel_error_phase_deg", &ErrorInput::wheel_error_phase, "Its phase.", 360);
-  wave("pinion_wheel_misalignment_um", &ErrorInput::pinion_wheel_misalignment,
+  wave("wheel_error_phase_deg", &PairErrorInput::wheel_error_phase, "Its phase.", 360);
+  wave("pinion_wheel_misalignment_um", &PairErrorInput::pinion_wheel_misalignment,
        "Misalignment of a computed mesh over the face width, normal to the flanks; positive opens it towards +z.", 1000)
       .only_if(is("mesh.pinion_wheel.stiffness", {"computed"}),
                "other stiffnesses do not depend on positions along the face width");
@@ -88,7 +91,7 @@ Table pair_mesh_table() {
        "Stiffness of the mesh along the normal of the flanks. computed: finite elements (`model`); iso_6336: mean "
        "after ISO 6336-1 method B, with `ripple` if one is given; closed_form: tooth formulas of the transverse "
        "section, staggered along the helix. Forces and errors of a table are those of the transverse section.",
-       &Scene::pinion_wheel},
+       &PairInput::pinion_wheel},
       {.more_shapes = {{"iso_6336", StiffnessShape::iso_6336}, {"closed_form", StiffnessShape::closed_form}},
        .more_waves = {"iso_6336"},
        .constant_shape = "iso_6336: constant"});
@@ -116,7 +119,7 @@ Table manufacturing_error_table() {
                  "Tangential composite deviations of both gears as random amplitudes with Rayleigh distribution and "
                  "uniform phase: X₁ = (F′ − f′)/2 once per turn and X₂ = f′/2 once per tooth. One reading of their "
                  "quantile becomes the error at mesh frequency.",
-                 &Scene::manufacturing_error);
+                 &PairInput::manufacturing_error);
   t.on_request();
   const auto deviation = [&](const char* name, double ManufacturingErrorInput::*member, const char* meaning) {
     t.key(name, member, meaning).required().from(0, 1e4);
@@ -157,7 +160,7 @@ Table manufacturing_error_table() {
 Table transmission_error_table() {
   Declarations shares("transmission_error",
                       "Causes of the transmission error: all causes, the errors alone and the stiffness alone.",
-                      &Scene::transmission_error);
+                      &PairInput::transmission_error);
   shares.on_request().only_if(given("[dynamics]"), "the lumped model computes the shares");
   shares
       .key("pinion_torques_Nm", &TransmissionErrorInput::pinion_torques,
@@ -179,8 +182,8 @@ Table transmission_error_table() {
 
 std::vector<Table> pair_tables() {
   std::vector<Table> tables = {pair_stage_table(),
-                               pair_gear_table("pinion", "The driving gear of a pair.", &Scene::pinion),
-                               pair_gear_table("wheel", "The driven gear of a pair.", &Scene::wheel),
+                               pair_gear_table("pinion", "The driving gear of a pair.", &PairInput::pinion),
+                               pair_gear_table("wheel", "The driven gear of a pair.", &PairInput::wheel),
                                pair_mesh_table(),
                                rotor_table(),
                                pair_errors_table(),

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/point_stiffness.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/structure_input.h"
@@ -24,11 +25,12 @@ using dynamics::Side;
 /// One pin in rigid walls.
 EndStiffness pin_in_walls(const Scene& scene) {
   const auto beam = pin_of(scene);
-  const double length = scene.supports.pin_length.value_or(0);
-  if (scene.supports.planet_pin == PinMounting::between_walls)
+  const double length = planetary(scene).supports.pin_length.value_or(0);
+  if (planetary(scene).supports.planet_pin == PinMounting::between_walls)
     return dynamics::beam_end(beam, beam, length / 2, Side::low) +
            dynamics::beam_end(beam, beam, length / 2, Side::high);
-  if (scene.supports.planet_pin == PinMounting::cantilever) return dynamics::beam_end(beam, beam, length, Side::low);
+  if (planetary(scene).supports.planet_pin == PinMounting::cantilever)
+    return dynamics::beam_end(beam, beam, length, Side::low);
   // The force on a flexpin passes through its middle: its end does not turn.
   EndStiffness all = EndStiffness::Zero();
   all(0, 0) = all(1, 1) = 1 / beam.parallel_shift(length);
@@ -61,7 +63,7 @@ std::optional<Eigen::MatrixXd> pins_in_space(const Scene& scene, const std::vect
     carrier.planet_angles = planet_angles;
     carrier.radius = radius;
     carrier.pin = pin_of(scene);
-    carrier.pin_length = *scene.supports.pin_length;
+    carrier.pin_length = *planetary(scene).supports.pin_length;
     carrier.webs = *structure->webs;
     carrier.web_radius = *structure->web_circle / 2;
     carrier.web_length = *structure->web_length;
@@ -74,7 +76,7 @@ std::optional<Eigen::MatrixXd> pins_in_space(const Scene& scene, const std::vect
     carrier.shaft = structure->shaft;
     return dynamics::pins_stiffness(carrier);
   }
-  if (scene.supports.planet_pin == PinMounting::unbending) return std::nullopt;
+  if (planetary(scene).supports.planet_pin == PinMounting::unbending) return std::nullopt;
   const auto size = 5 * static_cast<Eigen::Index>(planet_angles.size());
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, size);
   for (Eigen::Index first = 0; first < size; first += 5) all.block<5, 5>(first, first) = pin_in_walls(scene);

@@ -9,6 +9,7 @@
 
 #include "app/model/gear_system.h"
 #include "app/report/plot/plots.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "core/units.h"
 
@@ -226,7 +227,7 @@ PathStiffness path_stiffness(const RunResult& result, std::size_t ring) {
 
 std::optional<PinEffect> pin_effect(const RunResult& result, std::size_t ring) {
   const auto& mesh = result.rings.at(ring).mesh;
-  const auto& input = result.scene.rings.at(ring);
+  const auto& input = planetary(result.scene).rings.at(ring);
   if (!input.pins || mesh.positions.rows.empty() || mesh.pins.rows.empty()) return std::nullopt;
   const double pitch = 2 * std::numbers::pi / *input.pins, tooth = 2 * std::numbers::pi / input.teeth;
   const double first_pin = input.first_pin_angle.value_or(0);

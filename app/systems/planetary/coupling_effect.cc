@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/results/content_id.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/log.h"

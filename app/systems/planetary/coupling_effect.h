@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "dynamics/systems/planetary/response.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/plan/accuracy_choice.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/rim_coupling.h"
 
@@ -21,7 +22,7 @@ Decision coupling_decision(const Scene& scene, const std::vector<MeshModel>& mes
   if (std::any_of(meshes.begin(), meshes.end(), [&](const MeshModel& m) { return may_be_coupled(scene, m); }))
     return {what, "solved", "through the ring; applied beyond a tenth of the wanted accuracy"};
   return {what, "left out",
-          scene.dynamics->rim_coupling == RimCoupling::none ? asked_for : "no ring is solved with finite elements"};
+          planetary(scene).rim_coupling == RimCoupling::none ? asked_for : "no ring is solved with finite elements"};
 }
 
 Decision stiffness_decision(const DynamicsInput& input, const std::vector<MeshModel>& meshes) {

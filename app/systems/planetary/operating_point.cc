@@ -1,4 +1,5 @@
 #include "app/systems/planetary/operating_point.h"
+#include "app/systems/planetary/planetary_input.h"
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +10,7 @@ namespace annulus::app {
 
 using geometry::StageMember;
 
-geometry::MemberValues stage_speeds(const StageInput& stage, int sun_teeth, int ring_teeth) {
+geometry::MemberValues stage_speeds(const PlanetaryStageInput& stage, int sun_teeth, int ring_teeth) {
   std::vector<geometry::KnownSpeed> known;
   if (stage.held) known.push_back({*stage.held, 0});
   for (const auto& [member, speed] : {std::pair{StageMember::sun, stage.sun_speed},
@@ -20,7 +21,8 @@ geometry::MemberValues stage_speeds(const StageInput& stage, int sun_teeth, int 
   return geometry::member_speeds(sun_teeth, ring_teeth, known.front(), known.back());
 }
 
-OperatingPoint operating_point(const StageInput& stage, int sun_teeth, int ring_teeth, double sun_base_radius) {
+OperatingPoint operating_point(const PlanetaryStageInput& stage, int planets, int sun_teeth, int ring_teeth,
+                               double sun_base_radius) {
   OperatingPoint point;
   point.driver = stage.drives;
   auto& flow = point.flow;
@@ -40,7 +42,7 @@ OperatingPoint operating_point(const StageInput& stage, int sun_teeth, int ring_
   point.sun_torque = std::abs(flow.torque[StageMember::sun]);
   point.mesh_frequency =
       ring_teeth * std::abs(flow.speed[StageMember::carrier] - flow.speed[StageMember::ring]) / (2 * std::numbers::pi);
-  point.mean_mesh_force = point.sun_torque / (stage.planets * sun_base_radius);
+  point.mean_mesh_force = point.sun_torque / (planets * sun_base_radius);
   return point;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/scene/inputs/common_input.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "geometry/power_flow.h"
 
 namespace annulus::app {
@@ -30,10 +30,10 @@ struct OperatingPoint {
 };
 
 /// Speeds of all members, rad/s, from those that the scene has. Its speeds have been checked.
-[[nodiscard]] geometry::MemberValues stage_speeds(const StageInput& stage, int sun_teeth, int ring_teeth);
+[[nodiscard]] geometry::MemberValues stage_speeds(const PlanetaryStageInput& stage, int sun_teeth, int ring_teeth);
 
 /// Of a scene whose speeds and torques have been checked. `sun_base_radius` in m.
-[[nodiscard]] OperatingPoint operating_point(const StageInput& stage, int sun_teeth, int ring_teeth,
-                                             double sun_base_radius);
+[[nodiscard]] OperatingPoint operating_point(const PlanetaryStageInput& stage, int planets, int sun_teeth,
+                                             int ring_teeth, double sun_base_radius);
 
 }  // namespace annulus::app

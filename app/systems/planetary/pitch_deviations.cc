@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "app/scene/scene_declare.h"
+#include "app/systems/planetary/planetary_input.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/errors.h"
 #include "core/units.h"
 #include "dynamics/statistics/pitch_draws.h"
@@ -47,20 +49,20 @@ class PitchChecks : KeyChecks {
   using KeyChecks::KeyChecks;
 
   void run() {
-    auto& e = scene_.errors;
-    draw(sun_class, e.sun_pitch_class, sun_key, e.sun_pitch, "sun", scene_.sun.teeth, 1);
-    draw(planet_class, e.planet_pitch_class, planet_key, e.planet_pitch, "planet", scene_.planet.teeth,
+    auto& e = planetary(scene_).errors;
+    draw(sun_class, e.sun_pitch_class, sun_key, e.sun_pitch, "sun", sun_and_planets(scene_).sun.teeth, 1);
+    draw(planet_class, e.planet_pitch_class, planet_key, e.planet_pitch, "planet", sun_and_planets(scene_).planet.teeth,
          scene_.stage.planets);
     // A list is that of all rings.
-    const auto other_teeth = [&](const auto& ring) { return ring.teeth != scene_.rings.front().teeth; };
-    if (e.ring_pitch_class && std::any_of(scene_.rings.begin(), scene_.rings.end(), other_teeth))
+    const auto other_teeth = [&](const auto& ring) { return ring.teeth != planetary(scene_).rings.front().teeth; };
+    if (e.ring_pitch_class && std::any_of(planetary(scene_).rings.begin(), planetary(scene_).rings.end(), other_teeth))
       problem(ring_class, "needs rings with the same number of teeth: they have the same deviations");
-    else if (!scene_.rings.empty())
-      draw(ring_class, e.ring_pitch_class, ring_key, e.ring_pitch, "ring", scene_.rings.front().teeth, 1);
-    if (usable("sun.teeth")) list(sun_key, e.sun_pitch, scene_.sun.teeth, 1);
+    else if (!planetary(scene_).rings.empty())
+      draw(ring_class, e.ring_pitch_class, ring_key, e.ring_pitch, "ring", planetary(scene_).rings.front().teeth, 1);
+    if (usable("sun.teeth")) list(sun_key, e.sun_pitch, sun_and_planets(scene_).sun.teeth, 1);
     if (usable("planet.teeth") && usable("stage.planets"))
-      list(planet_key, e.planet_pitch, scene_.planet.teeth, scene_.stage.planets);
-    for (const auto& ring : scene_.rings)
+      list(planet_key, e.planet_pitch, sun_and_planets(scene_).planet.teeth, scene_.stage.planets);
+    for (const auto& ring : planetary(scene_).rings)
       if (usable("ring.teeth", ring.name)) list(ring_key, e.ring_pitch, ring.teeth, 1);
   }
 
@@ -77,9 +79,9 @@ class PitchChecks : KeyChecks {
                                                  geometry::cumulative_pitch_tolerance(toleranced, *flank_class)};
       list.clear();
       for (int n = 1; n <= gears; ++n) {
-        const auto one =
-            dynamics::drawn_pitch_deviations(tolerances, static_cast<std::uint64_t>(scene_.errors.pitch_seed),
-                                             gears > 1 ? fmt::format("{} {}", gear, n) : gear);
+        const auto one = dynamics::drawn_pitch_deviations(
+            tolerances, static_cast<std::uint64_t>(planetary(scene_).errors.pitch_seed),
+            gears > 1 ? fmt::format("{} {}", gear, n) : gear);
         list.insert(list.end(), one.begin(), one.end());
       }
       std::vector<double> shown;
@@ -127,7 +129,7 @@ std::vector<double> of_planet(const std::vector<double>& all, int teeth, int pla
 }  // namespace
 
 Table pitch_deviation_keys() {
-  Declarations errors("errors", "", &Scene::errors);
+  Declarations errors("errors", "", &PlanetaryInput::errors);
   const std::string meaning =
       ". The distance of each tooth from the one before, counted counter-clockwise, less the pitch, on the reference "
       "circle. Tooth 1 ";
@@ -137,14 +139,14 @@ Table pitch_deviation_keys() {
       key.only_if(is(std::string("mesh.") + mesh + ".stiffness", {"computed"}),
                   "a prescribed stiffness has no load shares of tooth pairs");
   };
-  const auto declare = [&](const std::string& gear, std::vector<double> ErrorInput::*member, const std::string& whose,
-                           const std::string& first, const std::vector<const char*>& meshes) {
+  const auto declare = [&](const std::string& gear, std::vector<double> PlanetaryErrorInput::*member,
+                           const std::string& whose, const std::string& first, const std::vector<const char*>& meshes) {
     auto key =
         errors.key(gear + "_pitch_deviations_um", member, "Single pitch deviations of the " + whose + meaning + first);
     key.absent("equal teeth").from(-1000, 1000).longest(20000).not_empty("deviation");
     only_with(key, meshes);
   };
-  const auto declare_class = [&](const std::string& gear, std::optional<int> ErrorInput::*member,
+  const auto declare_class = [&](const std::string& gear, std::optional<int> PlanetaryErrorInput::*member,
                                  const std::vector<const char*>& meshes) {
     auto key = errors.key(gear + "_pitch_class", member,
                           std::string("Flank tolerance class of ISO 1328-1 within which the pitch deviations ") +
@@ -155,14 +157,15 @@ Table pitch_deviation_keys() {
     key.refused_if(given("errors." + gear + "_pitch_deviations_um"), "the list states the deviations");
     only_with(key, meshes);
   };
-  declare("sun", &ErrorInput::sun_pitch, "sun", "meets planet 1 at time 0.", {"sun_planet"});
-  declare("planet", &ErrorInput::planet_pitch, "planets: for one that stands for all, or for each of them in turn",
-          "meets the sun at time 0.", {"sun_planet", "ring_planet"});
-  declare("ring", &ErrorInput::ring_pitch, "ring", "meets planet 1 at time 0.", {"ring_planet"});
-  declare_class("sun", &ErrorInput::sun_pitch_class, {"sun_planet"});
-  declare_class("planet", &ErrorInput::planet_pitch_class, {"sun_planet", "ring_planet"});
-  declare_class("ring", &ErrorInput::ring_pitch_class, {"ring_planet"});
-  errors.key("pitch_seed", &ErrorInput::pitch_seed, "Other seeds give other draws within the pitch classes.")
+  declare("sun", &PlanetaryErrorInput::sun_pitch, "sun", "meets planet 1 at time 0.", {"sun_planet"});
+  declare("planet", &PlanetaryErrorInput::planet_pitch,
+          "planets: for one that stands for all, or for each of them in turn", "meets the sun at time 0.",
+          {"sun_planet", "ring_planet"});
+  declare("ring", &PlanetaryErrorInput::ring_pitch, "ring", "meets planet 1 at time 0.", {"ring_planet"});
+  declare_class("sun", &PlanetaryErrorInput::sun_pitch_class, {"sun_planet"});
+  declare_class("planet", &PlanetaryErrorInput::planet_pitch_class, {"sun_planet", "ring_planet"});
+  declare_class("ring", &PlanetaryErrorInput::ring_pitch_class, {"ring_planet"});
+  errors.key("pitch_seed", &PlanetaryErrorInput::pitch_seed, "Other seeds give other draws within the pitch classes.")
       .fallback(1, "any number will do")
       .from(0, 2147483647);
   return errors.done();
@@ -177,10 +180,10 @@ void mirror_pitch_deviations(Scene& scene) {
       list[i] = pitch[number(1 - static_cast<std::ptrdiff_t>(i), pitch.size())];
     return list;
   };
-  auto& e = scene.errors;
+  auto& e = planetary(scene).errors;
   e.sun_pitch = turned(e.sun_pitch);
   e.ring_pitch = turned(e.ring_pitch);
-  const auto teeth = static_cast<std::size_t>(scene.planet.teeth);
+  const auto teeth = static_cast<std::size_t>(sun_and_planets(scene).planet.teeth);
   if (teeth == 0 || e.planet_pitch.size() % teeth != 0) return;  // reported elsewhere
   std::vector<double> planets;
   for (std::size_t first = 0; first < e.planet_pitch.size(); first += teeth) {
@@ -205,7 +208,7 @@ PeriodicCurve error_of_gaps(const std::vector<double>& gaps, const PairShares& s
 
 void add_pitch_deviations(const Scene& scene, const geometry::PlanetarySet& set, const MeshResult& sun_mesh,
                           const MeshResult& ring_mesh, dynamics::PlanetaryStage& stage) {
-  const auto& e = scene.errors;
+  const auto& e = planetary(scene).errors;
   if (e.sun_pitch.empty() && e.planet_pitch.empty() && e.ring_pitch.empty()) return;
   const auto planets = static_cast<std::size_t>(set.planets());
   stage.sun_tooth_errors.resize(planets);
@@ -232,7 +235,7 @@ void add_pitch_deviations(const Scene& scene, const geometry::PlanetarySet& set,
       sun.push_back({error_of_gaps(gaps(e.sun_pitch, set.sun(), -1, -1), of_sun),
                      -set.sun().teeth() * set.planet_angle(n) / (2 * std::numbers::pi)});
     if (!e.planet_pitch.empty()) {
-      const auto pitch = of_planet(e.planet_pitch, scene.planet.teeth, n);
+      const auto pitch = of_planet(e.planet_pitch, sun_and_planets(scene).planet.teeth, n);
       sun.push_back({error_of_gaps(gaps(pitch, set.planet(), -1, 1), of_sun), -set.sun_phase_lag(n)});
       // The same tooth, as near to this as the phase of the ring mesh lets it be.
       const double lag = set.sun_phase_lag(n) + half_turn, whole = std::round(lag - set.ring_phase_lag(n));

@@ -1,4 +1,6 @@
 #include "app/systems/planetary/planet_coupling.h"
+#include "app/systems/planetary/planetary_input.h"
+#include "app/systems/shared/sun_planet_input.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,9 +39,9 @@ std::optional<dynamics::PlanetaryStage> with_deviating_coupling(const dynamics::
 }
 
 void warn_of_coupling_left_out(std::vector<Warning>& list, const Scene& scene) {
-  if (!scene.dynamics || scene.planet.bore != BoreOn::rollers) return;
-  const bool sun = scene.sun_planet.stiffness == StiffnessShape::computed,
-             ring = scene.ring_planet.stiffness == StiffnessShape::computed;
+  if (!scene.dynamics || sun_and_planets(scene).planet.bore != BoreOn::rollers) return;
+  const bool sun = sun_and_planets(scene).sun_planet.stiffness == StiffnessShape::computed,
+             ring = planetary(scene).ring_planet.stiffness == StiffnessShape::computed;
   if (sun && ring) return;
   list.push_back({"planet_coupling_left_out", Severity::warning,
                   "in motion the two meshes of a planet do not act on each other through its rim, because the "

@@ -14,6 +14,7 @@
 #include "app/scene/scene_limits.h"
 #include "app/scene/scene_schema.h"
 #include "app/systems/planetary/pitch_deviations.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/power_flow.h"
@@ -23,6 +24,7 @@
 #include "app/systems/planetary/structure_tables.h"
 #include "app/systems/shared/profile_shifts.h"
 #include "app/systems/shared/rotors.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/errors.h"
 #include "core/units.h"
 
@@ -44,11 +46,11 @@ class PlanetaryChecker : KeyChecks {
     held_supports();
     // Problems of rings with the same name could not be assigned, so only the first one is checked.
     std::set<std::string> seen;
-    for (auto& ring : scene_.rings) {
+    for (auto& ring : planetary(scene_).rings) {
       if (seen.insert(ring.name).second) check_structure(ring, scene_, problems_);
     }
-    wave(scene_.sun_planet, "mesh.sun_planet");
-    wave(scene_.ring_planet, "mesh.ring_planet");
+    wave(sun_and_planets(scene_).sun_planet, "mesh.sun_planet");
+    wave(planetary(scene_).ring_planet, "mesh.ring_planet");
     single_supports();
     plane_models();
     rim_coupling();
@@ -71,7 +73,7 @@ class PlanetaryChecker : KeyChecks {
   void planet_angles() {
     const std::string key = "stage.planet_angles_deg";
     if (!given(key) || !usable(key) || !usable("stage.planets")) return;
-    const auto& angles = scene_.stage.planet_angles;
+    const auto& angles = planetary(scene_).stage.planet_angles;
     if (angles.size() != static_cast<std::size_t>(scene_.stage.planets)) {
       problem(key,
               fmt::format("needs one angle per planet: {} angles for {} planets", angles.size(), scene_.stage.planets));
@@ -85,15 +87,16 @@ class PlanetaryChecker : KeyChecks {
 
   void profile_shifts() {
     using geometry::GearKind;
-    std::vector<ShiftedGear> gears = {{"sun", &scene_.sun, GearKind::external, &scene_.planet, "planet"},
-                                      {"planet", &scene_.planet, GearKind::external, &scene_.sun, "sun"}};
-    for (auto& ring : scene_.rings)
-      gears.push_back({"ring", &ring, GearKind::internal, &scene_.planet, "planet", ring.name});
+    std::vector<ShiftedGear> gears = {
+        {"sun", &sun_and_planets(scene_).sun, GearKind::external, &sun_and_planets(scene_).planet, "planet"},
+        {"planet", &sun_and_planets(scene_).planet, GearKind::external, &sun_and_planets(scene_).sun, "sun"}};
+    for (auto& ring : planetary(scene_).rings)
+      gears.push_back({"ring", &ring, GearKind::internal, &sun_and_planets(scene_).planet, "planet", ring.name});
     resolve_profile_shifts(scene_, problems_, gears);
   }
 
   void errors() {
-    auto& e = scene_.errors;
+    auto& e = planetary(scene_).errors;
     list("errors.planet_eccentricity_um", e.planet_eccentricity);
     list("errors.planet_eccentricity_phase_deg", e.planet_eccentricity_phase);
     list("errors.planet_pin_position_error_um", e.planet_pin_position);
@@ -101,10 +104,11 @@ class PlanetaryChecker : KeyChecks {
   }
 
   void bearings() {
-    for (const auto& [key, values] : {std::pair{"supports.planet_radial_N_per_m", &scene_.supports.planet_radial},
-                                      {"supports.planet_tangential_N_per_m", &scene_.supports.planet_tangential}})
+    for (const auto& [key, values] :
+         {std::pair{"supports.planet_radial_N_per_m", &planetary(scene_).supports.planet_radial},
+          {"supports.planet_tangential_N_per_m", &planetary(scene_).supports.planet_tangential}})
       if (given(key)) list(key, *values);
-    const auto& s = scene_.supports;
+    const auto& s = planetary(scene_).supports;
     const std::string clearance = "supports.planet_clearance_um";
     if (s.planet_clearance == 0 || !usable(clearance) || !usable("supports.planet_N_per_m")) return;
     if (s.planet == rigid) problem(clearance, "needs a bearing that gives way: supports.planet_N_per_m is rigid");
@@ -112,8 +116,8 @@ class PlanetaryChecker : KeyChecks {
 
   void planet_on_rollers() {
     const std::string key = "planet.bore";
-    if (scene_.planet.bore != BoreOn::rollers || !usable(key)) return;
-    if (usable("supports.planet_N_per_m") && scene_.supports.planet == rigid)
+    if (sun_and_planets(scene_).planet.bore != BoreOn::rollers || !usable(key)) return;
+    if (usable("supports.planet_N_per_m") && planetary(scene_).supports.planet == rigid)
       problem(key, "needs a bearing that gives way: supports.planet_N_per_m is rigid");
     if (usable("stage.helix_angle_deg") && scene_.stage.helix_angle != 0)
       problem(key, "is not modelled for helical teeth; use \"hub\"");
@@ -135,8 +139,8 @@ class PlanetaryChecker : KeyChecks {
   void single_supports() {
     const bool resolved = scene_.fidelity == Fidelity::resolved, helical = scene_.stage.helix_angle != 0;
     if (resolved && helical) problem("model", "cannot represent helical gears: use \"automatic\" or \"solid\"");
-    if (scene_.ring_planet.stiffness != StiffnessShape::computed) return;
-    for (const auto& ring : scene_.rings) {
+    if (planetary(scene_).ring_planet.stiffness != StiffnessShape::computed) return;
+    for (const auto& ring : planetary(scene_).rings) {
       if (!fem::on_single_supports(ring_structure(ring))) continue;
       if (resolved)
         problem("model",
@@ -154,9 +158,10 @@ class PlanetaryChecker : KeyChecks {
       problem("model",
               fmt::format("cannot represent the {}: {}; use \"automatic\", \"solid\" or \"resolved\"", mesh, why));
     };
-    if (scene_.sun_planet.stiffness == StiffnessShape::computed) refuse("sun-planet mesh", solid_reason(scene_));
-    if (scene_.ring_planet.stiffness != StiffnessShape::computed) return;
-    for (const auto& ring : scene_.rings)
+    if (sun_and_planets(scene_).sun_planet.stiffness == StiffnessShape::computed)
+      refuse("sun-planet mesh", solid_reason(scene_));
+    if (planetary(scene_).ring_planet.stiffness != StiffnessShape::computed) return;
+    for (const auto& ring : planetary(scene_).rings)
       refuse(fmt::format("ring-planet mesh of '{}'", ring.name), solid_reason(scene_, ring));
   }
 
@@ -164,7 +169,7 @@ class PlanetaryChecker : KeyChecks {
   void held_supports() {
     for (const auto member : stage_members) {
       const auto key = fmt::format("supports.{}_torsional_N_per_m", to_string(member));
-      const bool held = scene_.stage.held == member;
+      const bool held = planetary(scene_).stage.held == member;
       if (!given(key) || !usable(key) || !usable("stage.held")) continue;
       const double stiffness = torsional_support(scene_, member);
       if (held && stiffness == 0)
@@ -174,14 +179,15 @@ class PlanetaryChecker : KeyChecks {
       if (!held && stiffness == rigid)
         problem(key, fmt::format("holds the {} rigidly, but stage.held = \"{}\" lets it turn; use a finite stiffness "
                                  "or leave it out",
-                                 to_string(member), scene_.stage.held ? to_string(*scene_.stage.held) : "none"));
+                                 to_string(member),
+                                 planetary(scene_).stage.held ? to_string(*planetary(scene_).stage.held) : "none"));
     }
   }
 
   void ring_names() {
     constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.";
     std::set<std::string> seen;
-    for (const auto& ring : scene_.rings) {
+    for (const auto& ring : planetary(scene_).rings) {
       if (seen.contains(ring.name)) continue;
       seen.insert(ring.name);
       const bool allowed_name = !ring.name.empty() && ring.name.front() != '.' &&
@@ -195,16 +201,16 @@ class PlanetaryChecker : KeyChecks {
     }
     seen.clear();
     for (const auto& input : scene_.inputs) {
-      if (input.key != "ring.name" || seen.insert(input.ring).second) continue;
+      if (input.key != "ring.name" || seen.insert(input.variant).second) continue;
       problems_.push_back(
           {input.line, input.column,
-           fmt::format("ring.name = {}: is the name of more than one ring; each needs its own", shown(input.ring))});
+           fmt::format("ring.name = {}: is the name of more than one ring; each needs its own", shown(input.variant))});
     }
   }
 
   void tolerances() {
-    if (!scene_.tolerances) return;
-    const auto& t = *scene_.tolerances;
+    if (!planetary(scene_).tolerances) return;
+    const auto& t = *planetary(scene_).tolerances;
     const bool any = t.accuracy_class || t.sun_class || t.planet_class || t.ring_class ||
                      t.sun_runout.value_or(0) > 0 || t.planet_runout.value_or(0) > 0 || t.ring_runout.value_or(0) > 0 ||
                      t.planet_pin_position.value_or(0) > 0;
@@ -219,17 +225,18 @@ class PlanetaryChecker : KeyChecks {
 
   void rim_coupling() {
     if (!scene_.dynamics) return;
-    const auto coupling = scene_.dynamics->rim_coupling;
+    const auto coupling = planetary(scene_).rim_coupling;
     if (coupling != RimCoupling::elastic && coupling != RimCoupling::statical) return;
-    if (scene_.ring_planet.stiffness != StiffnessShape::computed)
+    if (planetary(scene_).ring_planet.stiffness != StiffnessShape::computed)
       problem("dynamics.rim_coupling",
               "needs a computed ring mesh: a prescribed stiffness does not describe the ring; use \"none\" or "
               "\"automatic\"");
-    if (coupling == RimCoupling::elastic && usable("stage.held") && scene_.stage.held != geometry::StageMember::ring)
+    if (coupling == RimCoupling::elastic && usable("stage.held") &&
+        planetary(scene_).stage.held != geometry::StageMember::ring)
       problem("dynamics.rim_coupling",
               "is not modelled for a ring that turns (stage.held), whose modes would need its Coriolis forces; use "
               "\"static\" or \"automatic\"");
-    for (const auto& ring : scene_.rings)
+    for (const auto& ring : planetary(scene_).rings)
       if (ring_structure(ring).single_supports() == 1)
         problem("dynamics.rim_coupling",
                 fmt::format("is not modelled for the ring '{}' on a single pin, which rests in its housing: use "

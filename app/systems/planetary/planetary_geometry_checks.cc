@@ -6,10 +6,12 @@
 #include <tuple>
 
 #include "app/scene/model_limits.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/tolerance_sharing.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/errors.h"
 #include "core/units.h"
 #include "fem/problem/problem_check.h"
@@ -42,8 +44,8 @@ void check_ring_supports(const Scene& scene, const GearGeometry& geometry, std::
   throw InputError(
       fmt::format("ring '{}': turns on its {} by {} mm = {:.2g} modules under the nominal load; {}: make them stiffer, "
                   "use more of them, or reduce their clearance",
-                  scene.rings.at(ring).name, model.problem->structure.words().supports, to_text(turn / units::mm, 3),
-                  modules, small_displacements_rule()));
+                  planetary(scene).rings.at(ring).name, model.problem->structure.words().supports,
+                  to_text(turn / units::mm, 3), modules, small_displacements_rule()));
 }
 
 /// Least load of the bearing of a central body, in mean mesh forces: planets on one side of it cannot keep it centred.
@@ -83,13 +85,13 @@ void check_helical_faces(const Scene& scene, const GearGeometry& geometry) {
 
 /// The pin of each planet by itself.
 void check_pin(const Scene& scene, double force) {
-  const auto& s = scene.supports;
+  const auto& s = planetary(scene).supports;
   if (s.planet_pin == PinMounting::unbending) return;
   const double diameter = *s.pin_diameter;
-  if (scene.planet.bore_diameter && diameter >= *scene.planet.bore_diameter)
+  if (sun_and_planets(scene).planet.bore_diameter && diameter >= *sun_and_planets(scene).planet.bore_diameter)
     throw InputError(fmt::format("supports.planet_pin_diameter_mm = {}: does not fit into the planet's bore of {} mm",
                                  to_text(diameter / units::mm, 6),
-                                 to_text(*scene.planet.bore_diameter / units::mm, 6)));
+                                 to_text(*sun_and_planets(scene).planet.bore_diameter / units::mm, 6)));
   const double deflection = force / pin_stiffness(scene), limit = displacement_limit(scene);
   if (deflection <= limit) return;
   throw InputError(fmt::format(
@@ -101,7 +103,7 @@ void check_pin(const Scene& scene, double force) {
 
 /// The play of planet bearings, and that more than a roller carries.
 void check_clearance(const Scene& scene, double force) {
-  const auto& s = scene.supports;
+  const auto& s = planetary(scene).supports;
   if (s.planet_clearance == 0) return;
   const auto shown = fmt::format("supports.planet_clearance_um = {}", to_text(s.planet_clearance / units::um, 6));
   const double limit = displacement_limit(scene);
@@ -110,7 +112,7 @@ void check_clearance(const Scene& scene, double force) {
         fmt::format("{}: half of it moves a planet by more than {} of the module: at most {} µm is possible", shown,
                     largest_gear_displacement, to_text(2 * limit / units::um, 4)));
   // The bed of a planet on rollers has patches of some degrees, and its table has loads below this one.
-  const bool bed = scene.planet.bore == BoreOn::rollers;
+  const bool bed = sun_and_planets(scene).planet.bore == BoreOn::rollers;
   const double least = (bed ? 45 : 10) * units::deg, zone = bearing_law(scene).load_zone(force);
   if (zone >= least) return;
   throw InputError(fmt::format(
@@ -122,7 +124,7 @@ void check_clearance(const Scene& scene, double force) {
 
 /// The sun mesh is solved once, with the ring mesh of the first ring as the other mesh of its planets.
 void check_rings_of_planets_on_rollers(const Scene& scene, const GearGeometry& geometry) {
-  if (scene.planet.bore != BoreOn::rollers) return;
+  if (sun_and_planets(scene).planet.bore != BoreOn::rollers) return;
   const auto& first = geometry.rings.front();
   for (const auto& ring : geometry.rings) {
     const double angle = ring.set.ring_mesh().working_pressure_angle(),
@@ -137,7 +139,7 @@ void check_rings_of_planets_on_rollers(const Scene& scene, const GearGeometry& g
 }
 
 void check_planetary_bearings(const Scene& scene, const GearGeometry& geometry) {
-  const auto& s = scene.supports;
+  const auto& s = planetary(scene).supports;
   const double pin_force =
       geometry.operating_point.mean_mesh_force * pin_force_per_mesh_force(geometry.rings.front().set);
   check_pin(scene, pin_force);
@@ -165,36 +167,37 @@ void check_planetary_bearings(const Scene& scene, const GearGeometry& geometry) 
 }  // namespace
 
 void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry) {
-  const bool sun = scene.sun_planet.stiffness == StiffnessShape::computed;
-  const bool ring = scene.ring_planet.stiffness == StiffnessShape::computed;
-  if (sun) check_bore(scene, "sun", scene.sun, geometry.sun_mesh().wheel());
-  if (sun || ring) check_bore(scene, "planet", scene.planet, geometry.sun_mesh().pinion());
+  const bool sun = sun_and_planets(scene).sun_planet.stiffness == StiffnessShape::computed;
+  const bool ring = planetary(scene).ring_planet.stiffness == StiffnessShape::computed;
+  if (sun) check_bore(scene, "sun", sun_and_planets(scene).sun, geometry.sun_mesh().wheel());
+  if (sun || ring) check_bore(scene, "planet", sun_and_planets(scene).planet, geometry.sun_mesh().pinion());
   check_rings_of_planets_on_rollers(scene, geometry);
-  for (std::size_t i = 0; ring && i < scene.rings.size(); ++i)
-    check_ring_rim(scene, scene.rings[i], geometry.rings.at(i));
+  for (std::size_t i = 0; ring && i < planetary(scene).rings.size(); ++i)
+    check_ring_rim(scene, planetary(scene).rings[i], geometry.rings.at(i));
 
-  const char* load = scene.stage.power            ? "stage.power_kW"
-                     : scene.stage.sun_torque     ? "stage.sun_torque_Nm"
-                     : scene.stage.carrier_torque ? "stage.carrier_torque_Nm"
-                                                  : "stage.ring_torque_Nm";
+  const char* load = planetary(scene).stage.power            ? "stage.power_kW"
+                     : planetary(scene).stage.sun_torque     ? "stage.sun_torque_Nm"
+                     : planetary(scene).stage.carrier_torque ? "stage.carrier_torque_Nm"
+                                                             : "stage.ring_torque_Nm";
   const double mesh_force = geometry.operating_point.mean_mesh_force;
   if (scene.dynamics) {
     check_deviations(scene);
     check_helical_faces(scene, geometry);
     check_planetary_bearings(scene, geometry);
-    for (const auto* mesh : {&scene.sun_planet, &scene.ring_planet})
+    for (const auto* mesh : {&sun_and_planets(scene).sun_planet, &planetary(scene).ring_planet})
       check_prescribed_mesh(scene, load, *mesh, mesh_force);
   }
-  for (std::size_t i = 0; scene.tolerances && i < scene.rings.size(); ++i) (void)stage_tolerances(scene, geometry, i);
-  const auto planet = material_of(scene, scene.planet);
+  for (std::size_t i = 0; planetary(scene).tolerances && i < planetary(scene).rings.size(); ++i)
+    (void)stage_tolerances(scene, geometry, i);
+  const auto planet = material_of(scene, sun_and_planets(scene).planet);
   const auto check_mesh = [&](const GearInput& wheel, const geometry::GearPair& pair) {
     check_load(scene, load, mesh_force, pair.common_face().width,
                fem::MeshMaterials(planet, material_of(scene, wheel)).youngs_modulus());
   };
-  if (sun) check_mesh(scene.sun, geometry.sun_mesh());
-  for (std::size_t i = 0; ring && i < scene.rings.size(); ++i)
-    check_mesh(scene.rings[i], geometry.rings.at(i).set.ring_mesh());
-  for (std::size_t i = 0; i < scene.rings.size(); ++i) check_ring_supports(scene, geometry, i);
+  if (sun) check_mesh(sun_and_planets(scene).sun, geometry.sun_mesh());
+  for (std::size_t i = 0; ring && i < planetary(scene).rings.size(); ++i)
+    check_mesh(planetary(scene).rings[i], geometry.rings.at(i).set.ring_mesh());
+  for (std::size_t i = 0; i < planetary(scene).rings.size(); ++i) check_ring_supports(scene, geometry, i);
 }
 
 std::vector<std::string> planetary_faults(const Scene& scene) {
@@ -210,13 +213,13 @@ std::vector<std::string> planetary_faults(const Scene& scene) {
   const auto gear = [&](const std::string& name, const GearInput& input, GearKind kind) {
     attempt([&] { (void)geometry_of(name, [&] { return make_gear(scene, input, kind); }); });
   };
-  gear("sun", scene.sun, GearKind::external);
-  gear("planet", scene.planet, GearKind::external);
-  for (const auto& ring : scene.rings) gear("ring '" + ring.name + "'", ring, GearKind::internal);
+  gear("sun", sun_and_planets(scene).sun, GearKind::external);
+  gear("planet", sun_and_planets(scene).planet, GearKind::external);
+  for (const auto& ring : planetary(scene).rings) gear("ring '" + ring.name + "'", ring, GearKind::internal);
   if (!faults.empty()) return faults;  // pairs of gears that cannot exist say nothing new
-  for (const auto& ring : scene.rings) {
+  for (const auto& ring : planetary(scene).rings) {
     Scene alone = scene;
-    alone.rings = {ring};
+    planetary(alone).rings = {ring};
     attempt([&] { check_planetary_geometry(alone, make_geometry(alone)); });
   }
   return faults;

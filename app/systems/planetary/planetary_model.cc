@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/results/cached_value.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/space_stage.h"
@@ -10,6 +11,7 @@
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/friction_losses.h"
 #include "app/systems/shared/mesh_names.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "dynamics/systems/planetary/space_motion.h"
@@ -18,22 +20,22 @@
 namespace annulus::app {
 
 std::string solid_reason(const Scene& scene, const RingInput& ring) {
-  return fem::solid_reason(ring_structure(ring),
-                           face_features(scene, scene.planet, "planet", ring, "ring",
-                                         scene.errors.ring_planet_misalignment, gauges_need_solid(scene, ring)));
+  return fem::solid_reason(ring_structure(ring), face_features(scene, sun_and_planets(scene).planet, "planet", ring,
+                                                               "ring", planetary(scene).errors.ring_planet_misalignment,
+                                                               gauges_need_solid(scene, ring)));
 }
 
 std::string solid_reason(const Scene& scene) {
-  return fem::solid_reason(
-      {}, face_features(scene, scene.planet, "planet", scene.sun, "sun", scene.errors.sun_planet_misalignment));
+  return fem::solid_reason({}, face_features(scene, sun_and_planets(scene).planet, "planet", sun_and_planets(scene).sun,
+                                             "sun", planetary(scene).errors.sun_planet_misalignment));
 }
 
 namespace {
 
 /// `partner`: the other mesh of the planets.
 std::optional<fem::PlanetRollers> rollers_of(const Scene& scene, const geometry::GearPair& partner) {
-  if (scene.planet.bore != BoreOn::rollers) return std::nullopt;
-  return fem::PlanetRollers{scene.supports.planet, scene.supports.planet_clearance / 2, partner};
+  if (sun_and_planets(scene).planet.bore != BoreOn::rollers) return std::nullopt;
+  return fem::PlanetRollers{planetary(scene).supports.planet, planetary(scene).supports.planet_clearance / 2, partner};
 }
 
 /// Load moves along the face of gears that tilt.
@@ -49,27 +51,27 @@ MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
   return mesh_model(scene, {.mesh = sun_planet,
                             .title = "sun-planet mesh",
                             .pair = geometry.sun_mesh(),
-                            .input = scene.sun_planet,
-                            .planet = scene.planet,
-                            .wheel = scene.sun,
+                            .input = sun_and_planets(scene).sun_planet,
+                            .planet = sun_and_planets(scene).planet,
+                            .wheel = sun_and_planets(scene).sun,
                             .planet_name = "planet",
                             .wheel_name = "sun",
-                            .wheel_support_diameter = scene.sun.bore_diameter,
+                            .wheel_support_diameter = sun_and_planets(scene).sun.bore_diameter,
                             .planet_rollers = rollers_of(scene, geometry.rings.front().set.ring_mesh()),
-                            .misalignment = scene.errors.sun_planet_misalignment,
+                            .misalignment = planetary(scene).errors.sun_planet_misalignment,
                             .mean_force = geometry.operating_point.mean_mesh_force,
                             .why_it_tilts = why_it_tilts(scene, geometry, 0)});
 }
 
 MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
-  const auto& input = scene.rings.at(ring);
+  const auto& input = planetary(scene).rings.at(ring);
   const auto& made = geometry.rings.at(ring);
   return mesh_model(scene, {.mesh = ring_planet,
                             .title = "ring-planet mesh",
                             .ring = input.name,
                             .pair = made.set.ring_mesh(),
-                            .input = scene.ring_planet,
-                            .planet = scene.planet,
+                            .input = planetary(scene).ring_planet,
+                            .planet = sun_and_planets(scene).planet,
                             .wheel = input,
                             .planet_name = "planet",
                             .wheel_name = "ring",
@@ -78,14 +80,15 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
                             .gauges = gauges_on(scene, input, made.set.ring_mesh().common_face().width),
                             .gauges_across = gauges_need_solid(scene, input),
                             .planet_rollers = rollers_of(scene, made.set.sun_mesh()),
-                            .misalignment = scene.errors.ring_planet_misalignment,
+                            .misalignment = planetary(scene).errors.ring_planet_misalignment,
                             .mean_force = geometry.operating_point.mean_mesh_force,
+                            .ring_modes_count = scene.dynamics && planetary(scene).rim_coupling == RimCoupling::elastic,
                             .why_it_tilts = why_it_tilts(scene, geometry, ring)});
 }
 
 std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geometry) {
   std::vector<MeshModel> models = {sun_mesh_model(scene, geometry)};
-  for (std::size_t i = 0; i < scene.rings.size(); ++i) models.push_back(ring_mesh_model(scene, geometry, i));
+  for (std::size_t i = 0; i < planetary(scene).rings.size(); ++i) models.push_back(ring_mesh_model(scene, geometry, i));
   return models;
 }
 

@@ -7,6 +7,7 @@
 #include "app/model/lumped_model.h"
 #include "app/model/mesh_result.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/stage_geometry.h"
 
 namespace annulus::app {

@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "app/model/stiff_supports.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/space_plan.h"
 #include "app/systems/planetary/stage_supports.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -85,8 +87,11 @@ std::vector<DofPlan> dofs(const Scene& scene) {
   const auto effective =
       scene.dynamics
           ? effective_supports(
-                scene, rough_stiffness(scene, scene.sun_planet, narrower_face(scene, scene.sun, scene.planet)),
-                rough_stiffness(scene, scene.ring_planet, narrower_face(scene, scene.planet, scene.rings.front())))
+                scene,
+                rough_stiffness(scene, sun_and_planets(scene).sun_planet,
+                                narrower_face(scene, sun_and_planets(scene).sun, sun_and_planets(scene).planet)),
+                rough_stiffness(scene, planetary(scene).ring_planet,
+                                narrower_face(scene, sun_and_planets(scene).planet, planetary(scene).rings.front())))
           : given;
   std::vector<DofPlan> list;
   const auto add = [&](const std::string& dof, const char* support, auto SupportInput::*stiffness) {
@@ -146,18 +151,19 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
                     to_text(ring_mesh.normal_backlash() / units::um, 2)));
     list.emplace_back("Friction is neglected. The contact is hard (no penetration), and sliding is small.");
     if (sun_mesh_computed) list.emplace_back("The sun mesh is solved once and shared by all rings.");
-    const bool misaligned = scene.errors.sun_planet_misalignment != 0 || scene.errors.ring_planet_misalignment != 0;
+    const bool misaligned =
+        planetary(scene).errors.sun_planet_misalignment != 0 || planetary(scene).errors.ring_planet_misalignment != 0;
     list.emplace_back(
         misaligned ? "Eccentricities and position errors enter the dynamics; only the misalignments enter the contact "
                      "solution."
                    : "The planet errors of the scene enter the dynamics; the contact solution is without errors.");
-    if (scene.planet.bore == BoreOn::rollers)
+    if (sun_and_planets(scene).planet.bore == BoreOn::rollers)
       list.emplace_back(
           "The bore of the planets is the raceway of rollers on a rigid pin. The rollers count as an even bed without "
           "friction: how the rim bends between two of them is left out. Each mesh is solved with the force of the "
           "other one on the planet. The motion that a round rim makes in the bearing is left to the lumped model, in "
           "which the two meshes act on each other through the rim.");
-    for (const auto& ring : scene.rings) {
+    for (const auto& ring : planetary(scene).rings) {
       add_single_pin(list, ring);
       add_axial_force(list, scene, geometry, ring);
     }
@@ -171,12 +177,12 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
     list.emplace_back(
         "The torque of the sun is clockwise. The stage is computed as its mirror image, in which it is "
         "counter-clockwise: directions and drawings of the results are those of the mirror image.");
-  if (scene.supports.planet_clearance > 0)
+  if (planetary(scene).supports.planet_clearance > 0)
     list.push_back(
         fmt::format("The planet bearings have {} µm of radial clearance. Their rollers count as many, equal and of "
                     "linear stiffness: the changing stiffness while they pass under the load is left out. The natural "
                     "frequencies are those of small motions about the mean load.",
-                    to_text(scene.supports.planet_clearance / units::um, 4)));
+                    to_text(planetary(scene).supports.planet_clearance / units::um, 4)));
   if (scene.stage.helix_angle != 0 && !moves_in_space(scene))
     list.emplace_back(
         "The lumped model is plane. It contains the transverse forces of helical teeth; their axial forces and tilting "
@@ -212,7 +218,7 @@ std::vector<DerivedInput> derived_inputs(const GearGeometry& geometry) {
 void describe_planetary(const Scene& scene, const GearGeometry& geometry, Plan& plan) {
   plan.inputs = resolved_inputs(scene, derived_inputs(geometry));
   plan.quantities = stage_quantities(scene, geometry);
-  for (const auto& ring : geometry.rings) plan.rings.emplace_back(ring.name, ring_quantities(ring));
+  for (const auto& ring : geometry.rings) plan.variants.emplace_back(ring.name, ring_quantities(ring));
   if (scene.dynamics || has_statics_in_space(scene)) plan.dofs = dofs_in_space(scene, geometry, dofs(scene));
   if (scene.dynamics) plan.motion = motion_decisions(scene, plan.meshes);
   plan.remarks = remarks(scene, geometry, plan.computes(), plan.meshes.front().computed());

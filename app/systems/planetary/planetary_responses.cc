@@ -6,11 +6,13 @@
 
 #include "app/model/stiff_supports.h"
 #include "app/plan/accuracy_choice.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/tolerance_sharing.h"
 #include "app/systems/shared/mesh_names.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "dynamics/steady_state/integration_cost.h"
 
 namespace annulus::app {
@@ -19,7 +21,7 @@ namespace {
 
 /// A ring held all around its outside has no modes as low as the stage's.
 bool may_have_modes(const Scene& scene, const MeshModel& ring) {
-  return may_be_coupled(scene, ring) && scene.dynamics->rim_coupling != RimCoupling::statical &&
+  return may_be_coupled(scene, ring) && planetary(scene).rim_coupling != RimCoupling::statical &&
          !fem::held_outside(ring.problem->structure);
 }
 
@@ -86,11 +88,12 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
 
 dynamics::PlanetaryStage rough_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                      RoughCourse course) {
-  const Scene rough =
-      with_rough_stiffness(scene,
-                           {{&Scene::sun_planet, narrower_face(scene, scene.sun, scene.planet)},
-                            {&Scene::ring_planet, narrower_face(scene, scene.planet, scene.rings.front())}},
-                           course);
+  Scene rough = scene;
+  auto& gears = sun_and_planets(rough);
+  gears.sun_planet = rough_mesh(scene, gears.sun_planet, narrower_face(scene, gears.sun, gears.planet), course);
+  auto& stage = planetary(rough);
+  stage.ring_planet =
+      rough_mesh(scene, stage.ring_planet, narrower_face(scene, gears.planet, stage.rings.front()), course);
   const auto none = unread_table(sun_planet);
   return make_stage(rough, geometry, ring, none, none);
 }
@@ -99,10 +102,10 @@ std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearG
                                                  const std::vector<MeshModel>& meshes) {
   if (!scene.dynamics) return {};
   std::vector<PlannedResponse> responses;
-  for (std::size_t i = 0; i < scene.rings.size(); ++i)
+  for (std::size_t i = 0; i < planetary(scene).rings.size(); ++i)
     responses.push_back(planned_response(
         scene, rough_stage(scene, geometry, i), rough_stage(scene, geometry, i, RoughCourse::rippling),
-        meshes.front().computed() + meshes.at(i + 1).computed(), meshes.at(i + 1), scene.rings[i].name));
+        meshes.front().computed() + meshes.at(i + 1).computed(), meshes.at(i + 1), planetary(scene).rings[i].name));
   return responses;
 }
 

@@ -8,38 +8,40 @@
 #include <vector>
 
 #include "app/rexs/rexs_writer.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/stage_geometry.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/errors.h"
 
 namespace annulus::app {
 
 std::string planetary_rexs(const Scene& computed, const std::string& ring) {
   const Scene scene = as_drawn(computed, make_geometry(computed).operating_point);
-  const auto found =
-      std::find_if(scene.rings.begin(), scene.rings.end(), [&](const auto& r) { return r.name == ring; });
-  if (found == scene.rings.end()) {
+  const auto found = std::find_if(planetary(scene).rings.begin(), planetary(scene).rings.end(),
+                                  [&](const auto& r) { return r.name == ring; });
+  if (found == planetary(scene).rings.end()) {
     std::vector<std::string> names;
-    for (const auto& r : scene.rings) names.push_back(r.name);
+    for (const auto& r : planetary(scene).rings) names.push_back(r.name);
     throw InputError(fmt::format("{}: has no ring '{}'; its rings are {} (--ring NAME)", scene.file.string(), ring,
                                  fmt::join(names, ", ")));
   }
-  const auto set = make_geometry(scene).rings[static_cast<std::size_t>(found - scene.rings.begin())].set;
+  const auto set = make_geometry(scene).rings[static_cast<std::size_t>(found - planetary(scene).rings.begin())].set;
   RexsWriter rexs(scene);
   const auto unit = rexs.component("gear_unit", scene.title);
   auto stage = rexs.component("planetary_stage", scene.title);
   rexs.custom_attributes(stage, {"stage", "errors", "supports", "dynamics", "mesh.sun_planet", "mesh.ring_planet"});
   rexs.relation("assembly", {{"assembly", &unit}, {"part", &stage}});
   auto carrier = rexs.component("planet_carrier", "carrier");
-  if (scene.carrier.mass) carrier.attribute("mass_of_component", "kg", *scene.carrier.mass);
+  if (planetary(scene).carrier.mass) carrier.attribute("mass_of_component", "kg", *planetary(scene).carrier.mass);
   rexs.custom_attributes(carrier, {"carrier"});
   rexs.relation("assembly", {{"assembly", &stage}, {"part", &carrier}});
-  auto sun = rexs.gear("sun", scene.sun, set.sun_mesh().wheel());
+  auto sun = rexs.gear("sun", sun_and_planets(scene).sun, set.sun_mesh().wheel());
   rexs.custom_attributes(sun, {"sun"});
   auto annulus = rexs.gear("ring " + found->name, *found, set.ring_mesh().wheel());
   rexs.custom_attributes(annulus, {"ring"}, found->name);
   for (int n = 1; n <= scene.stage.planets; ++n) {
-    auto planet = rexs.gear(fmt::format("planet {}", n), scene.planet, set.sun_mesh().pinion());
+    auto planet = rexs.gear(fmt::format("planet {}", n), sun_and_planets(scene).planet, set.sun_mesh().pinion());
     rexs.custom_attributes(planet, {"planet"});
     const double distance = scene.stage.centre_distance;
     rexs.stage(fmt::format("sun - planet {}", n), distance, stage, sun, planet);

@@ -5,11 +5,13 @@
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
 #include "app/scene/input_place.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_members.h"
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/mesh_names.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/errors.h"
 #include "core/log.h"
 #include "core/parallel.h"
@@ -85,8 +87,9 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
   const bool sun = model.mesh == sun_planet;
   if (!model.computed()) {
     const auto& pair = sun ? geometry.sun_mesh() : geometry.rings.front().set.ring_mesh();
-    return prescribed_stiffness(model, in_transverse_section(sun ? scene.sun_planet : scene.ring_planet, pair), scene,
-                                pair.contact_ratio(), geometry.operating_point.mean_mesh_force);
+    return prescribed_stiffness(
+        model, in_transverse_section(sun ? sun_and_planets(scene).sun_planet : planetary(scene).ring_planet, pair),
+        scene, pair.contact_ratio(), geometry.operating_point.mean_mesh_force);
   }
   MeshResult result;
   about(scene, sun ? "sun" : "ring '" + model.ring + "'",
@@ -104,7 +107,7 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
 std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                             const MeshResult& sun_mesh, const MeshResult& ring_mesh,
                                             const RunOptions& options) {
-  const auto& name = scene.rings.at(ring).name;
+  const auto& name = planetary(scene).rings.at(ring).name;
   const auto make = [&](const MeshResult& sun, const MeshResult& wheel) {
     return make_stage(scene, geometry, ring, sun, wheel);
   };
@@ -139,8 +142,8 @@ std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeomet
 
 RunResult::RunResult(const SystemRun& of)
     : RunView(of), geometry(make_geometry(of.scene)), sun_mesh(of.tables.front()) {
-  for (std::size_t i = 0; i < scene.rings.size(); ++i) {
-    auto& ring = rings.emplace_back(RingResult{scene.rings[i].name, of.tables.at(i + 1)});
+  for (std::size_t i = 0; i < planetary(scene).rings.size(); ++i) {
+    auto& ring = rings.emplace_back(RingResult{planetary(scene).rings[i].name, of.tables.at(i + 1)});
     if (of.responses.empty()) continue;
     const auto& response = static_cast<const RingResponse&>(*of.responses.at(i));
     ring.response = &response.stage;

@@ -12,6 +12,7 @@
 #include "app/model/cost_actual.h"
 #include "app/model/mesh_figures.h"
 #include "app/scene/example_scenes.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/planetary_rexs.h"
@@ -42,13 +43,13 @@ class PlanetarySystem final : public GearSystem {
   using GearSystem::GearSystem;
 
   [[nodiscard]] std::string describe() const override {
-    return fmt::format("{} ring{}, {} planets", scene().rings.size(), scene().rings.size() == 1 ? "" : "s",
-                       scene().stage.planets);
+    return fmt::format("{} ring{}, {} planets", planetary(scene()).rings.size(),
+                       planetary(scene()).rings.size() == 1 ? "" : "s", scene().stage.planets);
   }
 
   [[nodiscard]] std::vector<std::string> variants() const override {
     std::vector<std::string> names;
-    for (const auto& ring : scene().rings) names.push_back(ring.name);
+    for (const auto& ring : planetary(scene()).rings) names.push_back(ring.name);
     return names;
   }
 
@@ -95,8 +96,8 @@ class PlanetarySystem final : public GearSystem {
   }
 
   void save_inputs(const SystemRun& run, const RunOptions& options) const override {
-    for (std::size_t i = 0; i < scene().rings.size(); ++i) {
-      const auto file = options.out / scene().rings[i].name / "strain_gauges.csv";
+    for (std::size_t i = 0; i < planetary(scene()).rings.size(); ++i) {
+      const auto file = options.out / planetary(scene()).rings[i].name / "strain_gauges.csv";
       const auto& mesh = run.tables.at(i + 1);
       const auto readings = gauge_readings(scene(), geometry().rings[i].set, mesh);
       if (!readings) {
@@ -179,7 +180,7 @@ class PlanetarySystem final : public GearSystem {
   }
   [[nodiscard]] std::vector<Warning> response_warnings(const SystemRun& run, std::size_t ring) const override {
     const auto& response = static_cast<const RingResponse&>(*run.responses.at(ring));
-    const auto& name = scene().rings.at(ring).name;
+    const auto& name = planetary(scene()).rings.at(ring).name;
     auto list = stage_warnings(response.stage.figures, name);
     if (moves_in_space(scene())) {
       auto more = face_warnings({{"sun mesh", &run.tables.front()}, {"ring mesh", &run.tables.at(ring + 1)}}, name);

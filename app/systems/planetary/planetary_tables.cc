@@ -4,11 +4,13 @@
 
 #include "app/scene/gear_tables.h"
 #include "app/systems/planetary/pitch_deviations.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/planetary/structure_tables.h"
 #include "app/systems/shared/friction.h"
 #include "app/systems/shared/rotors.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "geometry/flank_tolerances.h"
 
 namespace annulus::app {
@@ -18,74 +20,82 @@ namespace {
 using geometry::StageMember;
 
 /// Which member is held, which one drives, how fast and how hard.
-void declare_power_flow(Declarations<StageInput>& stage) {
+Table power_flow_keys() {
+  Declarations stage("stage", "", &PlanetaryInput::stage);
   const std::vector<Choice<StageMember>> members = {
       {"sun", StageMember::sun}, {"carrier", StageMember::carrier}, {"ring", StageMember::ring}};
   std::vector<Choice<std::optional<StageMember>>> held = {{"none", std::nullopt}};
   for (const auto& member : members) held.push_back({member.name, member.value});
   stage
-      .choice("held", &StageInput::held, held,
+      .choice("held", &PlanetaryStageInput::held, held,
               "The member that does not turn. none: a differential, whose speeds are two keys. All three members then "
               "turn.")
       .fallback("ring", "the usual case");
   stage
-      .choice("drives", &StageInput::drives, members,
+      .choice("drives", &PlanetaryStageInput::drives, members,
               "The member whose torque acts in its direction of rotation. Where a load drives back, as in braking, it "
               "is the member on the side of the load.")
       .fallback("sun", "a reducer");
-  stage.key("power_kW", &StageInput::power, "Power of the member that drives.")
+  stage.key("power_kW", &PlanetaryStageInput::power, "Power of the member that drives.")
       .above(0, 1e6)
       .one_of({"sun_torque_Nm", "carrier_torque_Nm", "ring_torque_Nm"})
       .absent("follows from the torque and the speed");
   constexpr double largest_torque = 1e9;
   const char* from_power = "follows from the power and the speed";
   stage
-      .key("sun_torque_Nm", &StageInput::sun_torque,
+      .key("sun_torque_Nm", &PlanetaryStageInput::sun_torque,
            "Torque of the sun, instead of the power. It stays the same where a sweep changes the speed.")
       .above(0, largest_torque)
       .absent(from_power);
-  stage.key("carrier_torque_Nm", &StageInput::carrier_torque, "Torque of the carrier, instead of the power.")
+  stage.key("carrier_torque_Nm", &PlanetaryStageInput::carrier_torque, "Torque of the carrier, instead of the power.")
       .above(0, largest_torque)
       .absent(from_power);
-  stage.key("ring_torque_Nm", &StageInput::ring_torque, "Torque of the ring, instead of the power.")
+  stage.key("ring_torque_Nm", &PlanetaryStageInput::ring_torque, "Torque of the ring, instead of the power.")
       .above(0, largest_torque)
       .absent(from_power);
-  const auto speed = [&](const char* name, std::optional<double> StageInput::*member, const char* meaning,
+  const auto speed = [&](const char* name, std::optional<double> PlanetaryStageInput::*member, const char* meaning,
                          const char* held_member, const char* why) {
     return stage.key(name, member, meaning)
         .from(-1e6, 1e6)
         .refused_if(is("held", {held_member}), why)
         .absent("follows from the other speeds");
   };
-  speed("sun_speed_rpm", &StageInput::sun_speed,
+  speed("sun_speed_rpm", &PlanetaryStageInput::sun_speed,
         "Speed of the sun; negative: clockwise. One speed is given, or two of a differential.", "sun",
         "the sun is held")
       .some_of({"carrier_speed_rpm", "ring_speed_rpm"});
-  speed("carrier_speed_rpm", &StageInput::carrier_speed, "Speed of the carrier; negative: clockwise.", "carrier",
-        "the carrier is held");
-  speed("ring_speed_rpm", &StageInput::ring_speed, "Speed of the ring; negative: clockwise.", "ring",
+  speed("carrier_speed_rpm", &PlanetaryStageInput::carrier_speed, "Speed of the carrier; negative: clockwise.",
+        "carrier", "the carrier is held");
+  speed("ring_speed_rpm", &PlanetaryStageInput::ring_speed, "Speed of the ring; negative: clockwise.", "ring",
         "the ring is held");
+  return stage.done();
+}
+
+Table planet_angles_key() {
+  Declarations stage("stage", "", &PlanetaryInput::stage);
+  stage
+      .key("planet_angles_deg", &PlanetaryStageInput::planet_angles,
+           "Angular positions of the planets, counter-clockwise from the first planet at 0. Two decimals are enough. A "
+           "planet fits between the teeth of sun and ring every 360° / (teeth of the sun + teeth of the ring).")
+      .from(0, 360)
+      .absent("equally spaced");
+  return stage.done();
 }
 
 Table planetary_stage_table() {
   Declarations stage("stage", "", &Scene::stage);
   declare_planets(stage);
-  stage
-      .key("planet_angles_deg", &StageInput::planet_angles,
-           "Angular positions of the planets, counter-clockwise from the first planet at 0. Two decimals are enough. A "
-           "planet fits between the teeth of sun and ring every 360° / (teeth of the sun + teeth of the ring).")
-      .from(0, 360)
-      .absent("equally spaced");
+  stage.add(planet_angles_key());
   declare_centre_distance(stage).required();
   declare_tip_shortening(stage);
-  declare_power_flow(stage);
+  stage.add(power_flow_keys());
   return stage.done();
 }
 
 constexpr const char* needs_weight = "all bodies have a weight";
 
-Table planetary_hub_gear_table(const char* path, const char* meaning, HubGearInput Scene::*member, const char* mate,
-                               const Condition& computed) {
+Table planetary_hub_gear_table(const char* path, const char* meaning, HubGearInput SunPlanetInput::*member,
+                               const char* mate, const Condition& computed) {
   Declarations gear(path, meaning, member);
   declare_teeth(gear, Flanks::external, mate);
   declare_mass(gear).required_if(given("[gravity]"), needs_weight);
@@ -98,7 +108,7 @@ Table planetary_hub_gear_table(const char* path, const char* meaning, HubGearInp
 }
 
 Table planet_bore_key(const Condition& computed) {
-  Declarations planet("planet", "", &Scene::planet);
+  Declarations planet("planet", "", &SunPlanetInput::planet);
   planet
       .choice(
           "bore", &HubGearInput::bore, {{"hub", BoreOn::hub}, {"rollers", BoreOn::rollers}},
@@ -114,7 +124,7 @@ Table planet_bore_key(const Condition& computed) {
 }
 
 Table carrier_table() {
-  Declarations carrier("carrier", "The planet carrier.", &Scene::carrier);
+  Declarations carrier("carrier", "The planet carrier.", &PlanetaryInput::carrier);
   carrier.optional();
   declare_mass(carrier, "Mass without planets.").required_if(given("[gravity]"), needs_weight);
   declare_inertia(carrier, "Moment of inertia about the axis, without planets.").required_if(given("[dynamics]"));
@@ -134,9 +144,9 @@ void declare_error(Declarations<Section>& errors, const std::string& name, T Sec
   }
 }
 
-Table body_errors(const std::string& body, BodyErrorInput ErrorInput::*member) {
-  Declarations<BodyErrorInput> errors("errors", "",
-                                      [member](Scene& s, std::size_t) -> BodyErrorInput& { return s.errors.*member; });
+Table body_errors(const std::string& body, BodyErrorInput PlanetaryErrorInput::*member) {
+  Declarations<BodyErrorInput> errors(
+      "errors", "", [member](Scene& s, std::size_t) -> BodyErrorInput& { return planetary(s).errors.*member; });
   declare_error(errors, body + "_eccentricity", &BodyErrorInput::eccentricity, &BodyErrorInput::eccentricity_phase,
                 "Eccentricity of the " + body + ".", "Its direction at time 0.");
   declare_error(errors, body + "_position_error", &BodyErrorInput::position, &BodyErrorInput::position_phase,
@@ -147,19 +157,20 @@ Table body_errors(const std::string& body, BodyErrorInput ErrorInput::*member) {
 Table planetary_errors_table() {
   Declarations errors("errors",
                       "Manufacturing errors. Lists have one value per planet. Eccentricities turn with their body.",
-                      &Scene::errors);
+                      &PlanetaryInput::errors);
   errors.optional();
-  declare_error(errors, "planet_eccentricity", &ErrorInput::planet_eccentricity, &ErrorInput::planet_eccentricity_phase,
-                "Eccentricity of each planet.", "Direction of the eccentricity at time 0, in the planet's own frame.");
-  declare_error(errors, "planet_pin_position_error", &ErrorInput::planet_pin_position,
-                &ErrorInput::planet_pin_position_phase, "Position error of each planet pin.",
+  declare_error(errors, "planet_eccentricity", &PlanetaryErrorInput::planet_eccentricity,
+                &PlanetaryErrorInput::planet_eccentricity_phase, "Eccentricity of each planet.",
+                "Direction of the eccentricity at time 0, in the planet's own frame.");
+  declare_error(errors, "planet_pin_position_error", &PlanetaryErrorInput::planet_pin_position,
+                &PlanetaryErrorInput::planet_pin_position_phase, "Position error of each planet pin.",
                 "Direction of the pin position error, in the frame of the carrier.", "planet_installation");
-  errors.add(body_errors("sun", &ErrorInput::sun))
-      .add(body_errors("ring", &ErrorInput::ring))
-      .add(body_errors("carrier", &ErrorInput::carrier));
+  errors.add(body_errors("sun", &PlanetaryErrorInput::sun))
+      .add(body_errors("ring", &PlanetaryErrorInput::ring))
+      .add(body_errors("carrier", &PlanetaryErrorInput::carrier));
   errors.add(pitch_deviation_keys());
-  for (const auto& [mesh, member] :
-       {std::pair{"sun", &ErrorInput::sun_planet_misalignment}, {"ring", &ErrorInput::ring_planet_misalignment}})
+  for (const auto& [mesh, member] : {std::pair{"sun", &PlanetaryErrorInput::sun_planet_misalignment},
+                                     {"ring", &PlanetaryErrorInput::ring_planet_misalignment}})
     errors
         .key(std::string(mesh) + "_planet_misalignment_um", member,
              std::string("Misalignment of the ") + mesh +
@@ -175,7 +186,7 @@ Table supports_table() {
                         "Stiffness of the bearings; 0 means no bearing (planets need one). If it is absent or inf, the "
                         "bearing is rigid and the degree of freedom is dropped. A stiffness above a thousand mesh "
                         "stiffnesses over the wanted accuracy also counts as rigid.",
-                        &Scene::supports);
+                        &PlanetaryInput::supports);
   supports.optional();
   const auto support = [&](const char* name, double SupportInput::*member, double value, const char* why,
                            const char* meaning) {
@@ -270,7 +281,7 @@ Table tolerances_table() {
       "stay, at several torques, and what each tolerance contributes. Drawn deviations replace those of [errors] of "
       "the "
       "same kind.",
-      &Scene::tolerances);
+      &PlanetaryInput::tolerances);
   tolerances.study();
   tolerances
       .key("accuracy_class", &ToleranceInput::accuracy_class,
@@ -325,9 +336,10 @@ Table tolerances_table() {
 }
 
 Table rim_coupling_key() {
-  Declarations lumped("dynamics", "", &Scene::dynamics);
+  Declarations<PlanetaryInput> lumped("dynamics", "",
+                                      [](Scene& s, std::size_t) -> PlanetaryInput& { return planetary(s); });
   lumped
-      .choice("rim_coupling", &DynamicsInput::rim_coupling,
+      .choice("rim_coupling", &PlanetaryInput::rim_coupling,
               {{"automatic", RimCoupling::automatic},
                {"none", RimCoupling::none},
                {"static", RimCoupling::statical},
@@ -355,15 +367,18 @@ std::vector<Table> planetary_tables() {
   };
   std::vector<Table> tables = {
       planetary_stage_table(),
-      planetary_hub_gear_table("sun", "The sun gear.", &Scene::sun, "planet", sun_computed),
-      planetary_hub_gear_table("planet", "Each planet gear.", &Scene::planet, "sun", sun_computed || ring_computed),
+      planetary_hub_gear_table("sun", "The sun gear.", &SunPlanetInput::sun, "planet", sun_computed),
+      planetary_hub_gear_table("planet", "Each planet gear.", &SunPlanetInput::planet, "sun",
+                               sun_computed || ring_computed),
       planet_bore_key(sun_computed || ring_computed),
       carrier_table(),
       ring_table(),
       planetary_errors_table(),
       supports_table(),
-      mesh("mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.", &Scene::sun_planet),
-      mesh("mesh.ring_planet", "Stiffness of the ring mesh, prescribed instead of computed.", &Scene::ring_planet),
+      mesh("mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.",
+           &SunPlanetInput::sun_planet),
+      mesh("mesh.ring_planet", "Stiffness of the ring mesh, prescribed instead of computed.",
+           &PlanetaryInput::ring_planet),
       rim_coupling_key(),
       rotor_table(),
       tolerances_table(),

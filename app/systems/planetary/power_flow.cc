@@ -9,7 +9,9 @@
 
 #include "app/scene/key_checks.h"
 #include "app/systems/planetary/pitch_deviations.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/structure_tables.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -23,7 +25,7 @@ constexpr double slowest = 1e-6 * units::rpm;
 
 std::string speed_key(StageMember member) { return fmt::format("stage.{}_speed_rpm", to_string(member)); }
 
-const std::optional<double>& given_speed(const StageInput& stage, StageMember member) {
+const std::optional<double>& given_speed(const PlanetaryStageInput& stage, StageMember member) {
   return member == StageMember::sun       ? stage.sun_speed
          : member == StageMember::carrier ? stage.carrier_speed
                                           : stage.ring_speed;
@@ -31,29 +33,30 @@ const std::optional<double>& given_speed(const StageInput& stage, StageMember me
 
 /// Angles in the mirror image count the other way round. Planets keep their numbers.
 void mirror(Scene& scene) {
-  auto& stage = scene.stage;
-  stage.helix_angle = -stage.helix_angle;
+  scene.stage.helix_angle = -scene.stage.helix_angle;
   const auto reversed = [](double angle) { return angle == 0 ? 0 : 2 * std::numbers::pi - angle; };
-  const auto planets = static_cast<std::size_t>(stage.planets);
-  if (stage.planet_angles.empty() && planets > 0 && (scene.sun.teeth + scene.rings.front().teeth) % stage.planets == 0)
+  const auto planets = static_cast<std::size_t>(scene.stage.planets);
+  auto& angles = planetary(scene).stage.planet_angles;
+  if (angles.empty() && planets > 0 &&
+      (sun_and_planets(scene).sun.teeth + planetary(scene).rings.front().teeth) % scene.stage.planets == 0)
     for (std::size_t n = 0; n < planets; ++n)
-      stage.planet_angles.push_back(2 * std::numbers::pi * static_cast<double>(n) / static_cast<double>(planets));
-  for (double& angle : stage.planet_angles) angle = reversed(angle);
-  for (auto& ring : scene.rings) {
+      angles.push_back(2 * std::numbers::pi * static_cast<double>(n) / static_cast<double>(planets));
+  for (double& angle : angles) angle = reversed(angle);
+  for (auto& ring : planetary(scene).rings) {
     for (double& angle : ring.pin_angles) angle = -angle;
     for (auto* first : {&ring.first_pin_angle, &ring.first_spline_angle, &ring.first_bolt_angle})
       if (*first) **first = -**first;
   }
   const auto swap_flanks = [](GearInput& gear) { std::swap(gear.leading_flank, gear.trailing_flank); };
-  swap_flanks(scene.sun);
-  swap_flanks(scene.planet);
-  for (auto& ring : scene.rings) swap_flanks(ring);
-  for (auto& gauge : scene.strain_gauges) {
+  swap_flanks(sun_and_planets(scene).sun);
+  swap_flanks(sun_and_planets(scene).planet);
+  for (auto& ring : planetary(scene).rings) swap_flanks(ring);
+  for (auto& gauge : planetary(scene).strain_gauges) {
     gauge.angle = -gauge.angle;
     gauge.offset = -gauge.offset;
   }
   mirror_space(scene);
-  auto& e = scene.errors;
+  auto& e = planetary(scene).errors;
   mirror_pitch_deviations(scene);
   for (auto* phases : {&e.planet_eccentricity_phase, &e.planet_pin_position_phase})
     for (double& phase : *phases) phase = -phase;
@@ -72,13 +75,14 @@ class PowerFlowChecks : KeyChecks {
     if (stage().held == stage().drives)
       return problem("stage.drives", fmt::format("the {} is held (stage.held) and cannot drive; use {}",
                                                  to_string(stage().drives), fmt::join(turning(), " or ")));
-    if (number_of_speeds() && usable("sun.teeth") && usable("ring.teeth") && !scene_.rings.empty() &&
-        scene_.sun.teeth > 0 && scene_.rings.front().teeth > 0 && values_of_speeds() && clockwise_torque())
+    if (number_of_speeds() && usable("sun.teeth") && usable("ring.teeth") && !planetary(scene_).rings.empty() &&
+        sun_and_planets(scene_).sun.teeth > 0 && planetary(scene_).rings.front().teeth > 0 && values_of_speeds() &&
+        clockwise_torque())
       mirror(scene_);
   }
 
  private:
-  [[nodiscard]] const StageInput& stage() const { return scene_.stage; }
+  [[nodiscard]] const PlanetaryStageInput& stage() const { return planetary(scene_).stage; }
 
   /// In quotes, the members that turn.
   [[nodiscard]] std::vector<std::string> turning() const {
@@ -138,7 +142,7 @@ class PowerFlowChecks : KeyChecks {
   }
 
   [[nodiscard]] geometry::MemberValues speeds() const {
-    return stage_speeds(stage(), scene_.sun.teeth, scene_.rings.front().teeth);
+    return stage_speeds(stage(), sun_and_planets(scene_).sun.teeth, planetary(scene_).rings.front().teeth);
   }
   [[nodiscard]] std::string first_speed() const {
     for (const auto member : stage_members)
@@ -148,8 +152,8 @@ class PowerFlowChecks : KeyChecks {
 
   /// Of the sun.
   [[nodiscard]] bool clockwise_torque() const {
-    return geometry::member_torques(scene_.sun.teeth, scene_.rings.front().teeth, stage().drives,
-                                    speeds()[stage().drives])[StageMember::sun] < 0;
+    return geometry::member_torques(sun_and_planets(scene_).sun.teeth, planetary(scene_).rings.front().teeth,
+                                    stage().drives, speeds()[stage().drives])[StageMember::sun] < 0;
   }
 };
 
@@ -164,7 +168,7 @@ Scene as_drawn(const Scene& scene, const OperatingPoint& point) {
 void check_power_flow(Scene& scene, std::vector<Problem>& problems) { PowerFlowChecks(scene, problems).run(); }
 
 std::string role_of(const Scene& scene, const OperatingPoint& point, StageMember member) {
-  if (scene.stage.held == member) return "held";
+  if (planetary(scene).stage.held == member) return "held";
   const double power = point.flow.power(member), least = 1e-9 * std::abs(point.power);
   return power > least ? "drives" : power < -least ? "delivers" : "carries torque at rest";
 }

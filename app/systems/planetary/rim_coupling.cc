@@ -8,6 +8,7 @@
 
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/csv.h"
@@ -61,11 +62,12 @@ std::string coupling_id(const Scene& scene, const GearGeometry& geometry, const 
 }
 
 RimCoupling asked_coupling(const Scene& scene) {
-  return scene.dynamics ? scene.dynamics->rim_coupling : RimCoupling::automatic;
+  return scene.dynamics ? planetary(scene).rim_coupling : RimCoupling::automatic;
 }
 
 const RingInput& ring_of(const Scene& scene, const MeshModel& model) {
-  return *std::find_if(scene.rings.begin(), scene.rings.end(), [&](const auto& r) { return r.name == model.ring; });
+  return *std::find_if(planetary(scene).rings.begin(), planetary(scene).rings.end(),
+                       [&](const auto& r) { return r.name == model.ring; });
 }
 
 /// A ring on a single pin leans on its housing, now here, now there: no fixed supports hold it.

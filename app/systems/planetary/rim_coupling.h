@@ -7,6 +7,7 @@
 
 #include "app/plan/mesh_model.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/stage_geometry.h"
 #include "core/csv.h"
 #include "core/ring_coupling.h"

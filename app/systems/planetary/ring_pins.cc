@@ -7,6 +7,7 @@
 
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_schema.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/stage_geometry.h"
 #include "core/units.h"
 
@@ -29,7 +30,7 @@ class PinChecker : KeyChecks {
   /// Gives the only pin of a ring a bore of the housing without play, unless the scene declares one.
   void rest_in_bore(RingInput& ring) {
     for (auto& input : scene_.inputs) {
-      if (input.key != "ring.housing_clearance_um" || input.ring != ring.name || input.origin == Origin::scene)
+      if (input.key != "ring.housing_clearance_um" || input.variant != ring.name || input.origin == Origin::scene)
         continue;
       input.value = 0.0;
       input.note = "a single pin cannot hold the ring alone: it rests in the bore of the housing";

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "app/scene/scene.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/structure_keys.h"
 #include "fem/problem/structures/pin_held.h"
 

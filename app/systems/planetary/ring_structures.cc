@@ -9,6 +9,7 @@
 
 #include "app/scene/key_checks.h"
 #include "app/scene/model_limits.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/ring_pins.h"
 #include "app/systems/planetary/stage_geometry.h"
 #include "app/systems/planetary/structure_keys.h"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/scene/scene_declare.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/stage_geometry.h"
 #include "fem/problem/ring_structure.h"
 

@@ -1,4 +1,5 @@
 #include "app/scene/gear_tables.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/ring_structures.h"
 
@@ -28,7 +29,8 @@ void declare_ring_body(Declarations<RingInput>& ring) {
 
 Table ring_table() {
   Declarations<RingInput> ring("ring", "A ring gear and its supports; several rings are compared with each other.",
-                               &Scene::rings);
+                               &PlanetaryInput::rings);
+  ring.variants();
   declare_ring_body(ring);
   declare_structure_keys(ring);
   return ring.done();

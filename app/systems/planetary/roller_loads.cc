@@ -1,4 +1,5 @@
 #include "app/systems/planetary/roller_loads.h"
+#include "app/systems/planetary/planetary_input.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +55,7 @@ std::optional<RollerLoads> roller_loads(const Scene& scene, const geometry::Plan
   const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
   const double outwards = std::sin(as) - std::sin(ar), across = std::cos(as) + std::cos(ar);
   const double force = mesh.table.loads()[mesh.nominal] * std::hypot(outwards, across);
-  const double stiffness = scene.supports.planet, play = scene.supports.planet_clearance / 2;
+  const double stiffness = planetary(scene).supports.planet, play = planetary(scene).supports.planet_clearance / 2;
   const RoundRim round({stiffness, play}, stiffness, play, force);
   // The rim leans on the rollers opposite to the forces of its meshes.
   const double middle = std::atan2(-across, -outwards);

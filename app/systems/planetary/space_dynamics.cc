@@ -11,12 +11,14 @@
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
 #include "app/scene/input_place.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/stage_members.h"
 #include "app/systems/planetary/structure_input.h"
 #include "app/systems/shared/bearing_words.h"
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/space_input.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "app/systems/shared/tilt_inertia.h"
 #include "core/errors.h"
 #include "core/log.h"
@@ -32,14 +34,17 @@ namespace {
 dynamics::StageSpace::TiltInertia tilt_inertias(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
   const auto& given = scene.own<SpaceInput>().tilt_inertia;
   const auto& set = geometry.rings.at(ring).set;
-  const auto& input = scene.rings.at(ring);
+  const auto& input = planetary(scene).rings.at(ring);
   const auto g = scene.own<SpaceInput>().gravity.value_or(GravityInput{});
   const auto width = [](const geometry::Gear& gear) { return gear.parameters().face_width; };
   const auto of = [&](const TiltingBody& body) { return tilt_inertia(scene, body); };
-  return {of({"sun", given.sun, *scene.sun.mass, *scene.sun.inertia, width(set.sun()), g.sun}),
+  return {of({"sun", given.sun, *sun_and_planets(scene).sun.mass, *sun_and_planets(scene).sun.inertia, width(set.sun()),
+              g.sun}),
           of({"ring", given.ring, *input.mass, *input.inertia, width(set.ring()), g.ring}),
-          of({"carrier", given.carrier, *scene.carrier.mass, *scene.carrier.inertia, width(set.planet()), g.carrier}),
-          of({"planet", given.planet, *scene.planet.mass, *scene.planet.inertia, width(set.planet())})};
+          of({"carrier", given.carrier, *planetary(scene).carrier.mass, *planetary(scene).carrier.inertia,
+              width(set.planet()), g.carrier}),
+          of({"planet", given.planet, *sun_and_planets(scene).planet.mass, *sun_and_planets(scene).planet.inertia,
+              width(set.planet())})};
 }
 
 }  // namespace
@@ -51,7 +56,7 @@ bool moves_in_space(const Scene& scene) {
 
 void check_stage_bearings(const Scene& scene, const GearGeometry& geometry) {
   if (!moves_in_space(scene)) return;
-  for (std::size_t ring = 0; ring < scene.rings.size(); ++ring) {
+  for (std::size_t ring = 0; ring < planetary(scene).rings.size(); ++ring) {
     auto stage = spatial_frame(scene, geometry, ring);
     const auto& set = geometry.rings.at(ring).set;
     for (const auto& [face, pair] :
@@ -80,11 +85,11 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
   stage.space->laws = scene.dynamics->bearing_laws;
   if (const auto& g = scene.own<SpaceInput>().gravity) stage.space->mass_place = {g->sun, g->ring, g->carrier};
   const auto& set = geometry.rings.at(ring).set;
-  const auto& e = scene.errors;
-  stage.space->sun_face = motion_face(set.sun_mesh(), scene.sun_planet, sun_mesh.face, e.sun_planet_misalignment,
-                                      GapsAlong::transverse_section);
-  stage.space->ring_face = motion_face(set.ring_mesh(), scene.ring_planet, ring_mesh.face, e.ring_planet_misalignment,
-                                       GapsAlong::transverse_section);
+  const auto& e = planetary(scene).errors;
+  stage.space->sun_face = motion_face(set.sun_mesh(), sun_and_planets(scene).sun_planet, sun_mesh.face,
+                                      e.sun_planet_misalignment, GapsAlong::transverse_section);
+  stage.space->ring_face = motion_face(set.ring_mesh(), planetary(scene).ring_planet, ring_mesh.face,
+                                       e.ring_planet_misalignment, GapsAlong::transverse_section);
   stage.sun.support = stage.ring.support = stage.carrier.support = rigid;
   stage.planet_bearings.clear();
 }

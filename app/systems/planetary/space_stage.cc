@@ -11,12 +11,14 @@
 
 #include "app/model/excitation.h"
 #include "app/systems/planetary/carrier_pins.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/structure_input.h"
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/space_input.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/errors.h"
 #include "core/units.h"
 #include "dynamics/spatial/even_face.h"
@@ -79,11 +81,11 @@ void add_loads(const Scene& scene, std::size_t ring, dynamics::SpatialStage& sta
   if (!space.gravity) return;
   const auto& g = *space.gravity;
   stage.gravity = g.vector();
-  stage.weights = {{{Body::sun}, *scene.sun.mass, g.sun},
-                   {{Body::ring}, *scene.rings.at(ring).mass, g.ring},
-                   {{Body::carrier}, *scene.carrier.mass, g.carrier}};
+  stage.weights = {{{Body::sun}, *sun_and_planets(scene).sun.mass, g.sun},
+                   {{Body::ring}, *planetary(scene).rings.at(ring).mass, g.ring},
+                   {{Body::carrier}, *planetary(scene).carrier.mass, g.carrier}};
   for (int n = 0; n < scene.stage.planets; ++n)
-    stage.weights.push_back({{Body::planet, n}, *scene.planet.mass, g.planet});
+    stage.weights.push_back({{Body::planet, n}, *sun_and_planets(scene).planet.mass, g.planet});
 }
 
 /// Half the total normal backlash as the lumped model has it, both flanks; that of the gears where it does not say.
@@ -173,7 +175,7 @@ dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geo
   dynamics::SpatialStage stage;
   stage.plane = stage_kinematics(scene, geometry, ring);
   auto& plane = stage.plane;
-  const auto& supports = scene.supports;
+  const auto& supports = planetary(scene).supports;
   stage.pins = pins_in_space(scene, plane.planet_angles, plane.carrier.radius);
   plane.sun.support = supports.sun;
   plane.ring.support = supports.ring;
@@ -187,8 +189,10 @@ dynamics::SpatialStage spatial_frame(const Scene& scene, const GearGeometry& geo
   stage.base_helix_angle = planet.helix_angle() == 0 ? 0.0 : planet.base_helix_angle();
   stage.planet_working_radius_sun = planet.base_radius() / std::cos(set.sun_mesh().working_pressure_angle());
   stage.planet_working_radius_ring = planet.base_radius() / std::cos(set.ring_mesh().working_pressure_angle());
-  stage.sun_face = bare_face(scene, set.sun_mesh(), scene.sun_planet, scene.errors.sun_planet_misalignment);
-  stage.ring_face = bare_face(scene, set.ring_mesh(), scene.ring_planet, scene.errors.ring_planet_misalignment);
+  stage.sun_face = bare_face(scene, set.sun_mesh(), sun_and_planets(scene).sun_planet,
+                             planetary(scene).errors.sun_planet_misalignment);
+  stage.ring_face =
+      bare_face(scene, set.ring_mesh(), planetary(scene).ring_planet, planetary(scene).errors.ring_planet_misalignment);
   add_bearings(scene, stage);
   add_housing(scene, stage);
   add_loads(scene, ring, stage);
@@ -214,21 +218,22 @@ dynamics::SpatialStage make_spatial_stage(const Scene& scene, const GearGeometry
        {std::tuple{&stage.sun_face, &faces.sun, &sun_mesh}, {&stage.ring_face, &faces.ring, &ring_mesh}})
     if (*solid) face->symmetric = fem::asymmetry_of_face(*mesh->model.problem).empty();
   // All of a face that is even is alike while nothing tilts.
-  const bool crowned = lead_crowned(scene.sun) || lead_crowned(scene.planet) || lead_crowned(scene.rings[ring]);
+  const bool crowned = lead_crowned(sun_and_planets(scene).sun) || lead_crowned(sun_and_planets(scene).planet) ||
+                       lead_crowned(planetary(scene).rings[ring]);
   const int stretches = stage.reasons_for_space().empty() && !crowned ? 1 : faces.stretches;
   const auto& set = geometry.rings.at(ring).set;
   const double force = geometry.operating_point.mean_mesh_force;
-  set_law(stage.sun_face, set.sun_mesh(), scene.sun_planet, plane.sun_mesh, scene.errors.sun_planet_misalignment,
-          faces.sun_factor, stretches, faces.sun, force);
-  set_law(stage.ring_face, set.ring_mesh(), scene.ring_planet, plane.ring_mesh, scene.errors.ring_planet_misalignment,
-          faces.ring_factor, stretches, faces.ring, force);
+  set_law(stage.sun_face, set.sun_mesh(), sun_and_planets(scene).sun_planet, plane.sun_mesh,
+          planetary(scene).errors.sun_planet_misalignment, faces.sun_factor, stretches, faces.sun, force);
+  set_law(stage.ring_face, set.ring_mesh(), planetary(scene).ring_planet, plane.ring_mesh,
+          planetary(scene).errors.ring_planet_misalignment, faces.ring_factor, stretches, faces.ring, force);
   return stage;
 }
 
 std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const dynamics::SpatialStage& stage,
                                     const StageFaces& faces) {
   std::vector<Warning> list;
-  const auto& name = scene.rings.at(ring).name;
+  const auto& name = planetary(scene).rings.at(ring).name;
   if (!stage.reasons_for_space().empty()) {
     std::vector<std::string> held;
     for (const auto kind : {Body::sun, Body::ring, Body::carrier})
@@ -246,10 +251,10 @@ std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const 
                                   fmt::join(held, ", ")),
                       name});
   }
-  for (const auto& [key, body, given] : {std::tuple{"supports.sun_N_per_m", Body::sun, scene.supports.sun},
-                                         {"supports.ring_N_per_m", Body::ring, scene.supports.ring},
-                                         {"supports.carrier_N_per_m", Body::carrier, scene.supports.carrier},
-                                         {"supports.planet_N_per_m", Body::planet, scene.supports.planet}}) {
+  for (const auto& [key, body, given] : {std::tuple{"supports.sun_N_per_m", Body::sun, planetary(scene).supports.sun},
+                                         {"supports.ring_N_per_m", Body::ring, planetary(scene).supports.ring},
+                                         {"supports.carrier_N_per_m", Body::carrier, planetary(scene).supports.carrier},
+                                         {"supports.planet_N_per_m", Body::planet, planetary(scene).supports.planet}}) {
     const auto* input = scene.find(key);
     const bool written = input != nullptr && input->origin == Origin::scene && given > 0 && given != rigid;
     if (written && stage.has_radial_bearings({body}))
@@ -258,7 +263,7 @@ std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const 
                                   body == Body::planet ? std::string("planet") : dynamics::name_of_body({body})),
                       name});
   }
-  if (scene.supports.planet_clearance > 0 && stage.has_radial_bearings({Body::planet}))
+  if (planetary(scene).supports.planet_clearance > 0 && stage.has_radial_bearings({Body::planet}))
     list.push_back({"support_replaced", Severity::warning,
                     "supports.planet_clearance_um is left out: the planets are held by their [[bearing]] tables alone, "
                     "which have clearance_um",
@@ -268,7 +273,7 @@ std::vector<Warning> space_warnings(const Scene& scene, std::size_t ring, const 
     return input.stiffness == StiffnessShape::computed && !face &&
            (!stage.reasons_for_space().empty() || scene.fidelity == Fidelity::solid);
   };
-  if (spread(scene.sun_planet, faces.sun) || spread(scene.ring_planet, faces.ring))
+  if (spread(sun_and_planets(scene).sun_planet, faces.sun) || spread(planetary(scene).ring_planet, faces.ring))
     list.push_back(even_faces_warning(name));
   return list;
 }

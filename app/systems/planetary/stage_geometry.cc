@@ -1,4 +1,6 @@
 #include "app/systems/planetary/stage_geometry.h"
+#include "app/systems/planetary/planetary_input.h"
+#include "app/systems/shared/sun_planet_input.h"
 
 #include "core/units.h"
 
@@ -20,17 +22,19 @@ std::optional<double> known_outside(const Scene& scene, const RingInput& ring) {
 
 GearGeometry make_geometry(const Scene& scene) {
   using geometry::GearKind;
-  const auto sun = geometry_of("sun", [&] { return make_gear(scene, scene.sun, GearKind::external, -1); });
-  const auto planet = geometry_of("planet", [&] { return make_gear(scene, scene.planet, GearKind::external); });
+  const auto sun =
+      geometry_of("sun", [&] { return make_gear(scene, sun_and_planets(scene).sun, GearKind::external, -1); });
+  const auto planet =
+      geometry_of("planet", [&] { return make_gear(scene, sun_and_planets(scene).planet, GearKind::external); });
   GearGeometry result;
-  for (const auto& input : scene.rings) {
+  for (const auto& input : planetary(scene).rings) {
     const std::string name = "ring '" + input.name + "'";
     const auto ring = geometry_of(name, [&] { return make_gear(scene, input, GearKind::internal); });
     const auto set = geometry_of(name, [&] {
       const auto& stage = scene.stage;
-      if (stage.planet_angles.empty())
-        return geometry::PlanetarySet(sun, planet, ring, stage.centre_distance, stage.planets);
-      return geometry::PlanetarySet(sun, planet, ring, stage.centre_distance, stage.planet_angles);
+      const auto& angles = planetary(scene).stage.planet_angles;
+      if (angles.empty()) return geometry::PlanetarySet(sun, planet, ring, stage.centre_distance, stage.planets);
+      return geometry::PlanetarySet(sun, planet, ring, stage.centre_distance, angles);
     });
     const double outside = outside_radius(scene, input);
     if (outside <= ring.root_radius()) {
@@ -41,7 +45,8 @@ GearGeometry make_geometry(const Scene& scene) {
     result.rings.push_back({input.name, set, outside});
   }
   const auto& set = result.rings.front().set;
-  result.operating_point = operating_point(scene.stage, set.sun().teeth(), set.ring().teeth(), set.sun().base_radius());
+  result.operating_point = operating_point(planetary(scene).stage, scene.stage.planets, set.sun().teeth(),
+                                           set.ring().teeth(), set.sun().base_radius());
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/plan/gear_geometry.h"
 #include "app/systems/planetary/operating_point.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "geometry/planetary.h"
 
 namespace annulus::app {

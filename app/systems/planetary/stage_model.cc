@@ -6,12 +6,14 @@
 #include "app/results/cached_value.h"
 #include "app/systems/planetary/pitch_deviations.h"
 #include "app/systems/planetary/planet_coupling.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_members.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/shared/friction.h"
 #include "app/systems/shared/rotors.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -33,7 +35,7 @@ MeshInput in_transverse_section(const MeshInput& mesh, const geometry::GearPair&
 dynamics::PlanetaryStage stage_kinematics(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
   const auto& set = geometry.rings.at(ring).set;
   const auto& point = geometry.operating_point;
-  const auto& e = scene.errors;
+  const auto& e = planetary(scene).errors;
 
   dynamics::PlanetaryStage stage;
   dynamics::set_kinematics(stage, set);
@@ -44,7 +46,7 @@ dynamics::PlanetaryStage stage_kinematics(const Scene& scene, const GearGeometry
     stage.planet_errors.push_back({{e.planet_eccentricity[n], e.planet_eccentricity_phase[n]},
                                    {e.planet_pin_position[n], e.planet_pin_position_phase[n]}});
   }
-  stage.held = scene.stage.held;
+  stage.held = planetary(scene).stage.held;
   stage.carrier_speed = point.computed_speed(geometry::StageMember::carrier);
   stage.ring_speed = point.computed_speed(geometry::StageMember::ring);
   stage.sun_torque = point.sun_torque;
@@ -61,8 +63,8 @@ dynamics::PlanetaryStage unsupported_stage(const Scene& scene, const GearGeometr
     return excitation_of(in_transverse_section(input, pair), mesh, geometry.operating_point.mean_mesh_force, dependence,
                          pair.back_flank_phase());
   };
-  stage.sun_mesh = excitation(scene.sun_planet, sun_mesh, set.sun_mesh());
-  stage.ring_mesh = excitation(scene.ring_planet, ring_mesh, set.ring_mesh());
+  stage.sun_mesh = excitation(sun_and_planets(scene).sun_planet, sun_mesh, set.sun_mesh());
+  stage.ring_mesh = excitation(planetary(scene).ring_planet, ring_mesh, set.ring_mesh());
   return stage;
 }
 
@@ -70,15 +72,15 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
                                     const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
   if (!scene.dynamics) throw InternalError("internal error: dynamics of a scene without [dynamics]");
   auto stage = unsupported_stage(scene, geometry, ring, sun_mesh, ring_mesh);
-  const auto& input = scene.rings.at(ring);
-  stage.sun.mass = *scene.sun.mass;
-  stage.sun.inertia = *scene.sun.inertia;
+  const auto& input = planetary(scene).rings.at(ring);
+  stage.sun.mass = *sun_and_planets(scene).sun.mass;
+  stage.sun.inertia = *sun_and_planets(scene).sun.inertia;
   stage.ring.mass = *input.mass;
   stage.ring.inertia = *input.inertia;
-  stage.carrier.mass = *scene.carrier.mass;
-  stage.carrier.inertia = *scene.carrier.inertia;
-  stage.planet.mass = *scene.planet.mass;
-  stage.planet.inertia = *scene.planet.inertia;
+  stage.carrier.mass = *planetary(scene).carrier.mass;
+  stage.carrier.inertia = *planetary(scene).carrier.inertia;
+  stage.planet.mass = *sun_and_planets(scene).planet.mass;
+  stage.planet.inertia = *sun_and_planets(scene).planet.inertia;
   const auto supports =
       effective_supports(scene, dynamics::mean_stiffness(stage.sun_mesh), dynamics::mean_stiffness(stage.ring_mesh));
   stage.sun.support = supports.sun;
@@ -97,16 +99,16 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
     stage.ring_coupling = taken_coupling(*ring_mesh.coupling, coupling_choice(scene, *ring_mesh.coupling).taken);
   if (auto coupling = planet_coupling(stage, sun_mesh, ring_mesh))
     stage.planet_coupling = std::move(coupling->compliance);
-  stage.sun_half_backlash = scene.sun_planet.half_backlash.value_or(scene.dynamics->half_backlash);
-  stage.ring_half_backlash = scene.ring_planet.half_backlash.value_or(scene.dynamics->half_backlash);
+  stage.sun_half_backlash = sun_and_planets(scene).sun_planet.half_backlash.value_or(scene.dynamics->half_backlash);
+  stage.ring_half_backlash = planetary(scene).ring_planet.half_backlash.value_or(scene.dynamics->half_backlash);
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
-  stage.sun_mesh_damping_ratio = scene.sun_planet.damping_ratio;
-  stage.ring_mesh_damping_ratio = scene.ring_planet.damping_ratio;
-  stage.sun.damping_ratio = scene.supports.sun_damping;
-  stage.ring.damping_ratio = scene.supports.ring_damping;
-  stage.carrier.damping_ratio = scene.supports.carrier_damping;
-  stage.planet.damping_ratio = scene.supports.planet_damping;
+  stage.sun_mesh_damping_ratio = sun_and_planets(scene).sun_planet.damping_ratio;
+  stage.ring_mesh_damping_ratio = planetary(scene).ring_planet.damping_ratio;
+  stage.sun.damping_ratio = planetary(scene).supports.sun_damping;
+  stage.ring.damping_ratio = planetary(scene).supports.ring_damping;
+  stage.carrier.damping_ratio = planetary(scene).supports.carrier_damping;
+  stage.planet.damping_ratio = planetary(scene).supports.planet_damping;
   stage.structural_damping = structural_damping(*scene.dynamics);
   const auto& set = geometry.rings.at(ring).set;
   const auto friction = [&](const geometry::GearPair& pair, const MeshResult& mesh) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/model/stiff_supports.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/shared/space_input.h"
 
 namespace annulus::app {
@@ -10,23 +11,23 @@ namespace annulus::app {
 using geometry::StageMember;
 
 double torsional_support(const Scene& scene, StageMember member) {
-  const auto& s = scene.supports;
+  const auto& s = planetary(scene).supports;
   const auto& given = member == StageMember::sun    ? s.sun_torsional
                       : member == StageMember::ring ? s.ring_torsional
                                                     : s.carrier_torsional;
   if (given) return *given;
   const bool in_mounts = member == StageMember::ring && scene.own<SpaceInput>().ring_in_mounts();
-  return scene.stage.held == member && !in_mounts ? rigid : 0;
+  return planetary(scene).stage.held == member && !in_mounts ? rigid : 0;
 }
 
 Beam pin_of(const Scene& scene) {
-  return circular_beam(scene.supports.pin_diameter.value_or(0), scene.material.youngs_modulus,
+  return circular_beam(planetary(scene).supports.pin_diameter.value_or(0), scene.material.youngs_modulus,
                        scene.material.poisson_ratio);
 }
 
 double pin_stiffness(const Scene& scene) {
-  const double length = scene.supports.pin_length.value_or(0);
-  switch (scene.supports.planet_pin) {
+  const double length = planetary(scene).supports.pin_length.value_or(0);
+  switch (planetary(scene).supports.planet_pin) {
     case PinMounting::unbending:
       break;
     case PinMounting::between_walls:  // halves side by side; the middle does not turn
@@ -40,12 +41,12 @@ double pin_stiffness(const Scene& scene) {
 }
 
 double pin_tilt(const Scene& scene, double force) {
-  if (scene.supports.planet_pin != PinMounting::cantilever) return 0;
-  return force * pin_of(scene).cantilever_tilt(*scene.supports.pin_length);
+  if (planetary(scene).supports.planet_pin != PinMounting::cantilever) return 0;
+  return force * pin_of(scene).cantilever_tilt(*planetary(scene).supports.pin_length);
 }
 
 SupportInput supports_with_pins(const Scene& scene) {
-  SupportInput s = scene.supports;
+  SupportInput s = planetary(scene).supports;
   const double pin = pin_stiffness(scene);
   if (pin == rigid || s.planet_clearance > 0) return s;
   const auto add_pin = [pin](double& bearing) { bearing = 1 / (1 / bearing + 1 / pin); };
@@ -62,7 +63,7 @@ SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring
   s.ring = rigid_if_stiff(s.ring, n * ring_mesh, accuracy);
   const auto torsional = [&](StageMember member, double meshes) {
     const double given = torsional_support(scene, member);
-    return scene.stage.held == member ? rigid_if_stiff(given, n * meshes, accuracy) : given;
+    return planetary(scene).stage.held == member ? rigid_if_stiff(given, n * meshes, accuracy) : given;
   };
   s.sun_torsional = torsional(StageMember::sun, sun_mesh);
   s.ring_torsional = torsional(StageMember::ring, ring_mesh);
@@ -77,7 +78,7 @@ SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring
 }
 
 RadialBearing bearing_law(const Scene& scene) {
-  return {scene.supports.planet, scene.supports.planet_clearance / 2, pin_stiffness(scene)};
+  return {planetary(scene).supports.planet, planetary(scene).supports.planet_clearance / 2, pin_stiffness(scene)};
 }
 
 double pin_force_per_mesh_force(const geometry::PlanetarySet& set) {
@@ -88,7 +89,7 @@ double pin_force_per_mesh_force(const geometry::PlanetarySet& set) {
 double bearing_compliance(const Scene& scene, const geometry::PlanetarySet& set, double mesh_force) {
   const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
   const double tangential = std::pow(std::cos(as) + std::cos(ar), 2), radial = std::pow(std::sin(as) - std::sin(ar), 2);
-  if (scene.supports.planet_clearance > 0) {
+  if (planetary(scene).supports.planet_clearance > 0) {
     const double force = mesh_force * pin_force_per_mesh_force(set);
     return (tangential + radial) * bearing_law(scene).distance(force) / force;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/scene/scene.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "core/beam.h"
 #include "core/radial_bearing.h"
 #include "geometry/planetary.h"

@@ -8,11 +8,13 @@
 
 #include "app/model/scene_warnings.h"
 #include "app/systems/planetary/planet_coupling.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/friction.h"
 #include "app/systems/shared/space_input.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -47,7 +49,7 @@ std::vector<std::string> rigid_unasked(const Scene& scene) {
   std::vector<std::string> keys;
   for (const auto* key : {"supports.planet_N_per_m", "supports.carrier_N_per_m", "supports.ring_N_per_m"})
     if (by_default(scene, key)) keys.emplace_back(key);
-  const auto& s = scene.supports;
+  const auto& s = planetary(scene).supports;
   if ((!s.planet_radial.empty() && !s.planet_tangential.empty()) || s.planet_pin != PinMounting::unbending)
     std::erase(keys, "supports.planet_N_per_m");
   for (const auto& [body, key] : {std::pair{dynamics::StageBody::Kind::planet, "supports.planet_N_per_m"},
@@ -90,15 +92,15 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
   }
   warn_of_gauges(list, scene);
   std::vector<std::string> prescribed;
-  if (scene.sun_planet.stiffness != StiffnessShape::computed) prescribed.emplace_back("sun mesh");
-  if (scene.ring_planet.stiffness != StiffnessShape::computed) prescribed.emplace_back("ring mesh");
+  if (sun_and_planets(scene).sun_planet.stiffness != StiffnessShape::computed) prescribed.emplace_back("sun mesh");
+  if (planetary(scene).ring_planet.stiffness != StiffnessShape::computed) prescribed.emplace_back("ring mesh");
   warn_of_shares(list, scene, prescribed);
-  const auto& e = scene.errors;
-  if (scene.tolerances && !(e.sun_pitch.empty() && e.planet_pitch.empty() && e.ring_pitch.empty()))
+  const auto& e = planetary(scene).errors;
+  if (planetary(scene).tolerances && !(e.sun_pitch.empty() && e.planet_pitch.empty() && e.ring_pitch.empty()))
     list.push_back({"pitch_deviations", Severity::warning,
                     "the assemblies of [tolerances] have teeth without pitch deviations: those of [errors] are in all "
                     "other results"});
-  if (scene.tolerances && by_default(scene, "tolerances.distribution"))
+  if (planetary(scene).tolerances && by_default(scene, "tolerances.distribution"))
     list.push_back({"distribution_assumed", Severity::note,
                     "deviations within the tolerances are drawn from a normal distribution, because the scene does not "
                     "mention tolerances.distribution. With \"uniform\" they are larger"});
@@ -112,9 +114,9 @@ std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry
     warn_of_measured_flanks(list, ring.set.ring_mesh(), {"planet", "ring"}, mesh);
   }
   if (scene.dynamics) {
-    warn_of_backlash(list, scene.sun_planet.half_backlash.value_or(scene.dynamics->half_backlash), geometry.sun_mesh(),
-                     "sun mesh");
-    warn_of_backlash(list, scene.ring_planet.half_backlash.value_or(scene.dynamics->half_backlash),
+    warn_of_backlash(list, sun_and_planets(scene).sun_planet.half_backlash.value_or(scene.dynamics->half_backlash),
+                     geometry.sun_mesh(), "sun mesh");
+    warn_of_backlash(list, planetary(scene).ring_planet.half_backlash.value_or(scene.dynamics->half_backlash),
                      geometry.rings.front().set.ring_mesh(), "ring mesh");
   }
   return list;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/model/plan_studies.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/rim_coupling.h"
@@ -18,6 +19,7 @@
 #include "app/systems/shared/friction.h"
 #include "app/systems/shared/space_input.h"
 #include "app/systems/shared/space_results.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/errors.h"
 #include "core/units.h"
 
@@ -165,7 +167,8 @@ void mirror(StaticTurn& turn) {
 /// need more places to meet their worst coincidence.
 StaticSchedule schedule_of(const Scene& scene, const dynamics::SpatialStage& stage, const StageFaces& faces) {
   const auto& wanted = scene.own<StructureInput>().statics;
-  const bool in_cycle = varies_in_cycle(scene.sun_planet) || varies_in_cycle(scene.ring_planet);
+  const bool in_cycle =
+      varies_in_cycle(sun_and_planets(scene).sun_planet) || varies_in_cycle(planetary(scene).ring_planet);
   const bool solid = faces.sun || faces.ring;
   const int usual_phases = 8, period = dynamics::period_of(stage);
   const bool errors = stage.plane.error_period() > 1;
@@ -260,7 +263,7 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
   const auto stage = make(faces);
   const auto schedule = schedule_of(of.scene, stage, faces);
   RingStatics result;
-  result.ring = of.scene.rings[of.ring].name;
+  result.ring = planetary(of.scene).rings[of.ring].name;
   result.turn = dynamics::solve_turn(stage, schedule, options.threads);
   const auto changed = [&](const StageFaces& with) {
     return dynamics::solve_turn(make(with), schedule, options.threads, &result.turn);
@@ -352,12 +355,13 @@ StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, con
     faces.push_back(solid_face(mesh, options));
   }
   StageStatics statics{scene, {}};
-  for (std::size_t ring = 0; ring < scene.rings.size(); ++ring) {
+  for (std::size_t ring = 0; ring < planetary(scene).rings.size(); ++ring) {
     try {
       statics.rings.push_back(solve_ring(
           {scene, geometry, ring, tables.front(), tables.at(ring + 1), faces.front(), faces.at(ring + 1)}, options));
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: ring '{}': {}", scene.file.string(), scene.rings[ring].name, error.what()));
+      throw InputError(
+          fmt::format("{}: ring '{}': {}", scene.file.string(), planetary(scene).rings[ring].name, error.what()));
     }
   }
   warn_of_studies(statics);

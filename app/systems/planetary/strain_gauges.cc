@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "app/scene/scene_declare.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "core/not_known.h"
 #include "core/units.h"
@@ -38,16 +39,16 @@ class GaugeChecks : KeyChecks {
   using KeyChecks::KeyChecks;
 
   void run() {
-    if (!scene_.strain_gauges.empty() &&
+    if (!planetary(scene_).strain_gauges.empty() &&
         (scene_.fidelity == Fidelity::closed_form || scene_.fidelity == Fidelity::resolved))
       problem("model",
               "has no whole ring that gauges could stand on ([[strain_gauge]]); use \"automatic\", \"plane\" or "
               "\"solid\"");
-    for (std::size_t i = 0; i < scene_.strain_gauges.size(); ++i) {
-      const auto& gauge = scene_.strain_gauges[i];
+    for (std::size_t i = 0; i < planetary(scene_).strain_gauges.size(); ++i) {
+      const auto& gauge = planetary(scene_).strain_gauges[i];
       if (usable("strain_gauge.name", i)) name(i, gauge.name);
       const auto named = [&](const auto& ring) { return gauge.ring && ring.name == *gauge.ring; };
-      if (gauge.ring && std::none_of(scene_.rings.begin(), scene_.rings.end(), named))
+      if (gauge.ring && std::none_of(planetary(scene_).rings.begin(), planetary(scene_).rings.end(), named))
         problem("strain_gauge.ring", i, "is the name of no ring (ring.name)");
       if (!usable("strain_gauge.place", i) || !usable("strain_gauge.angle_deg", i)) continue;
       if (gauge.place == Place::outside)
@@ -63,13 +64,13 @@ class GaugeChecks : KeyChecks {
     if (name.empty() || !std::all_of(name.begin(), name.end(), printable))
       return problem("strain_gauge.name", i, "names a gauge in tables: not empty, without line breaks and tabs");
     for (std::size_t j = 0; j < i; ++j)
-      if (scene_.strain_gauges[j].name == name)
+      if (planetary(scene_).strain_gauges[j].name == name)
         return problem("strain_gauge.name", i, "is the name of more than one gauge; each needs its own");
   }
 
   void root(std::size_t i, const StrainGaugeInput& gauge) {
     constexpr double clear = 0.01;  // of a pitch
-    for (const auto& ring : scene_.rings) {
+    for (const auto& ring : planetary(scene_).rings) {
       if (!is_on(gauge, ring) || !usable("ring.teeth", ring.name)) continue;
       const double teeth = gauge.angle * ring.teeth / (2 * std::numbers::pi);
       if (std::abs(std::remainder(teeth, 1)) < clear)
@@ -81,7 +82,7 @@ class GaugeChecks : KeyChecks {
   }
 
   void outside(std::size_t i, const StrainGaugeInput& gauge) {
-    for (const auto& ring : scene_.rings)
+    for (const auto& ring : planetary(scene_).rings)
       if (is_on(gauge, ring) && fem::held_outside(ring_structure(ring)))
         problem(
             "strain_gauge.place", i,
@@ -98,7 +99,7 @@ Table strain_gauge_table() {
       "strain_gauge",
       "A strain gauge on the ring: its strain over a revolution of the carrier. Several tables are several "
       "gauges.",
-      &Scene::strain_gauges);
+      &PlanetaryInput::strain_gauges);
   gauge.on_request().only_if(is("mesh.ring_planet.stiffness", {"computed"}),
                              "a prescribed stiffness has no ring that is strained");
   gauge.key("name", &StrainGaugeInput::name, "Name of the gauge in results.").required();
@@ -141,7 +142,7 @@ void check_strain_gauges(Scene& scene, std::vector<Problem>& problems) { GaugeCh
 
 std::vector<fem::StrainGauge> gauges_on(const Scene& scene, const RingInput& ring, double face_width) {
   std::vector<fem::StrainGauge> list;
-  for (const auto& gauge : scene.strain_gauges)
+  for (const auto& gauge : planetary(scene).strain_gauges)
     if (is_on(gauge, ring))
       for (const double position : positions_of(gauge))
         list.push_back({.name = name_at(gauge, position),
@@ -155,17 +156,18 @@ std::vector<fem::StrainGauge> gauges_on(const Scene& scene, const RingInput& rin
 }
 
 bool gauges_need_solid(const Scene& scene, const RingInput& ring) {
-  return std::any_of(scene.strain_gauges.begin(), scene.strain_gauges.end(), [&](const auto& gauge) {
-    const auto& at = gauge.axial_positions;
-    const bool across = at.size() > 1 || (at.size() == 1 && at.front() != 0);
-    return is_on(gauge, ring) && (across || gauge.direction == Direction::axial);
-  });
+  return std::any_of(planetary(scene).strain_gauges.begin(), planetary(scene).strain_gauges.end(),
+                     [&](const auto& gauge) {
+                       const auto& at = gauge.axial_positions;
+                       const bool across = at.size() > 1 || (at.size() == 1 && at.front() != 0);
+                       return is_on(gauge, ring) && (across || gauge.direction == Direction::axial);
+                     });
 }
 
 void warn_of_gauges(std::vector<Warning>& list, const Scene& scene) {
-  for (const auto& ring : scene.rings) {
+  for (const auto& ring : planetary(scene).rings) {
     const bool lifts = ring.structure == Structure::pinned || ring.structure == Structure::splined;
-    const bool gauged = std::any_of(scene.strain_gauges.begin(), scene.strain_gauges.end(),
+    const bool gauged = std::any_of(planetary(scene).strain_gauges.begin(), planetary(scene).strain_gauges.end(),
                                     [&](const auto& gauge) { return is_on(gauge, ring); });
     if (!lifts || !gauged || scene.stage.planets < 2) continue;
     list.push_back({"strain_gauges", Severity::warning,
@@ -217,8 +219,8 @@ std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::
     readings.angle.push_back(turn * static_cast<double>(i) / static_cast<double>(rows));
   const auto curves = gauge_curves(csv);
   std::size_t number = 0;
-  for (std::size_t g = 0; g < scene.strain_gauges.size(); ++g) {
-    const auto& input = scene.strain_gauges[g];
+  for (std::size_t g = 0; g < planetary(scene).strain_gauges.size(); ++g) {
+    const auto& input = planetary(scene).strain_gauges[g];
     if (input.ring && *input.ring != ring_mesh.model.ring) continue;
     for (const double position : positions_of(input)) {
       const auto& curve = curves.at(number++);
@@ -265,8 +267,9 @@ Json to_json(const Scene& scene, const GaugeReadings& readings) {
                     {"smallest_strain", json_number(gauge.smallest)},
                     {"error", json_number(gauge.error)}});
   Json factors = Json::object();
-  for (std::size_t g = 0; g < scene.strain_gauges.size(); ++g)
-    if (const auto factor = readings.face_load_factor(g)) factors[scene.strain_gauges[g].name] = json_number(*factor);
+  for (std::size_t g = 0; g < planetary(scene).strain_gauges.size(); ++g)
+    if (const auto factor = readings.face_load_factor(g))
+      factors[planetary(scene).strain_gauges[g].name] = json_number(*factor);
   Json json = {{"gauges", std::move(list)}};
   if (!factors.empty()) json["face_load_factor"] = std::move(factors);
   return json;

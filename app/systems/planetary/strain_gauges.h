@@ -9,6 +9,7 @@
 #include "app/plan/warning.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_schema.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "core/json.h"
 #include "geometry/planetary.h"
 

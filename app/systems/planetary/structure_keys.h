@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/scene/scene_declare.h"
+#include "app/systems/planetary/planetary_input.h"
 
 /// What the declarations of all ring structures share.
 namespace annulus::app {

@@ -11,6 +11,7 @@
 #include "app/scene/scene_declare.h"
 #include "app/scene/scene_files.h"
 #include "app/systems/planetary/carrier_pins.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/structure_input.h"
 #include "app/systems/shared/space_input.h"
 #include "app/systems/shared/space_tables.h"
@@ -106,6 +107,7 @@ class StructureChecks : KeyChecks {
 
   void run() {
     sun();
+    mounts_of_ring();
     if (auto& structure = scene_.own<StructureInput>().carrier) carrier(*structure);
     if (auto& given = scene_.own<StructureInput>().housing) housing(*given);
   }
@@ -125,8 +127,17 @@ class StructureChecks : KeyChecks {
             "sharing; give a stiffness, \"floating\" or \"rigid\"");
   }
 
+  void mounts_of_ring() {
+    const std::string key = "bearing.beside_axis_mm";
+    const auto& bearings = scene_.own<SpaceInput>().bearings;
+    if (!usable("stage.held") || planetary(scene_).stage.held == geometry::StageMember::ring) return;
+    for (std::size_t i = 0; i < bearings.size(); ++i)
+      if (bearings[i].body == Body::ring && !bearings[i].beside.empty() && usable(key, i))
+        problem(key, i, "is the place of a mount of a ring that does not turn; stage.held says that it turns");
+  }
+
   void carrier(CarrierStructureInput& structure) {
-    const auto& s = scene_.supports;
+    const auto& s = planetary(scene_).supports;
     if (structure.webs && usable("carrier_structure.webs") && usable("supports.planet_pin")) {
       if (s.planet_pin != PinMounting::between_walls)
         return problem("carrier_structure.webs",
@@ -164,7 +175,7 @@ class StructureChecks : KeyChecks {
     if (known.empty()) return problem(key, "needs bearings that stand on the housing: add [[bearing]]");
     // The torque of a ring that is held enters the housing in its bearing.
     const bool in_bearing =
-        scene_.stage.held == geometry::StageMember::ring && !scene_.own<SpaceInput>().ring_in_mounts();
+        planetary(scene_).stage.held == geometry::StageMember::ring && !scene_.own<SpaceInput>().ring_in_mounts();
     try {
       input.seats = read_point_stiffness(file_below_scene(scene_, input.file), known,
                                          in_bearing ? of_ring : std::vector<std::string>{}, "the foundation held");

@@ -14,6 +14,7 @@
 #include "app/results/cached_value.h"
 #include "app/results/program_identity.h"
 #include "app/study/summary_studies.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/stage_members.h"
 #include "core/csv.h"
 #include "core/log.h"
@@ -114,7 +115,7 @@ const std::vector<SharingQuantile>& sharing_quantiles() {
 }
 
 dynamics::StageTolerances stage_tolerances(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
-  const auto& t = scene.tolerances.value();
+  const auto& t = planetary(scene).tolerances.value();
   const auto& set = geometry.rings.at(ring).set;
   dynamics::StageTolerances zones;
   zones.planet_pin_position = t.planet_pin_position.value_or(0) / 2;
@@ -134,9 +135,9 @@ Figure ToleranceSharing::figure(Interval SharingQuantiles::*quantile, std::size_
 std::optional<ToleranceSharing> tolerance_sharing(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                                   const dynamics::PlanetaryStage& stage, const MeshResult& sun_mesh,
                                                   const MeshResult& ring_mesh, const RunOptions& options) {
-  if (!scene.tolerances) return std::nullopt;
-  const auto& t = *scene.tolerances;
-  const auto& name = scene.rings.at(ring).name;
+  if (!planetary(scene).tolerances) return std::nullopt;
+  const auto& t = *planetary(scene).tolerances;
+  const auto& name = planetary(scene).rings.at(ring).name;
   const auto zones = stage_tolerances(scene, geometry, ring);
   const dynamics::AssemblyOptions settings{.assemblies = t.assemblies,
                                            .seed = static_cast<std::uint64_t>(t.seed),
@@ -156,8 +157,8 @@ std::optional<ToleranceSharing> tolerance_sharing(const Scene& scene, const Gear
 }
 
 double tolerance_seconds(const Scene& scene) {
-  if (!scene.tolerances) return 0;
-  const auto& t = *scene.tolerances;
+  if (!planetary(scene).tolerances) return 0;
+  const auto& t = *planetary(scene).tolerances;
   // Equilibria: those of every torque, then each tolerance alone and left out at one torque. The time of one is that of
   // the demo with five planets; others by the number of candidates and of unknowns.
   const double planets = scene.stage.planets, torques = static_cast<double>(t.torque_shares.size()) + 1;

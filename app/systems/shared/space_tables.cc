@@ -383,8 +383,6 @@ class SpaceChecks : KeyChecks {
     if (b.beside[0] == 0 && b.beside[1] == 0) return problem(key, i, "lies on the axis; leave it out");
     if (b.on.value_or(Body::housing) != Body::housing)
       return problem(key, i, "is the place of a mount in the housing; leave bearing.on out");
-    if (b.body == Body::ring && usable("stage.held") && scene_.stage.held != geometry::StageMember::ring)
-      return problem(key, i, "is the place of a mount of a ring that does not turn; stage.held says that it turns");
     if (b.along_x() == rigid || b.along_y() == rigid || b.axial == rigid || b.tilt == rigid)
       problem(key, i, "needs a mount that gives way; use finite stiffnesses");
   }

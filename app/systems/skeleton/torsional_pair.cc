@@ -20,13 +20,16 @@ namespace {
 
 constexpr const char* mesh_name = "pinion_wheel";
 
-// 1. Scene: what the user gives. Inputs that no other kind has are a struct of this file (Scene::own).
+// 1. Scene: what the user gives. Inputs that not every kind has are a struct of this file (Scene::own).
 
-struct DriveInput {
-  double inertia = 0;  ///< kg m^2
+struct TorsionalInput {
+  HubGearInput pinion, wheel;
+  MeshInput mesh;
+  double torque = 0;  ///< N m, of the pinion
+  double drive = 0;   ///< kg m^2, of the machine on its shaft
 };
 
-Table gear_table(const char* path, const char* meaning, PairGearInput Scene::*member) {
+Table gear_table(const char* path, const char* meaning, HubGearInput TorsionalInput::*member) {
   Declarations gear(path, meaning, member);
   declare_teeth(gear, Flanks::external);
   declare_inertia(gear).required();
@@ -35,24 +38,30 @@ Table gear_table(const char* path, const char* meaning, PairGearInput Scene::*me
   return gear.done();
 }
 
+/// A table whose keys are values of the inputs themselves.
+Declarations<TorsionalInput> own_table(const char* path, const char* meaning) {
+  return {path, meaning, [](Scene& s, std::size_t) -> TorsionalInput& { return s.own<TorsionalInput>(); }};
+}
+
 std::vector<Table> tables() {
   Declarations stage("stage", "", &Scene::stage);
   declare_centre_distance(stage).required();
-  stage.key("pinion_torque_Nm", &StageInput::pinion_torque, "Torque that drives the pinion.").above(0, 1e9).required();
-  Declarations<DriveInput> drive("drive", "The machine on the shaft of the pinion.",
-                                 [](Scene& s, std::size_t) -> DriveInput& { return s.own<DriveInput>(); });
+  auto load = own_table("stage", "");
+  load.key("pinion_torque_Nm", &TorsionalInput::torque, "Torque that drives the pinion.").above(0, 1e9).required();
+  stage.add(load.done());
+  auto drive = own_table("drive", "The machine on the shaft of the pinion.");
   drive.optional();
-  drive.key("inertia_kg_m2", &DriveInput::inertia, "Its moment of inertia.").fallback(0.0, "none").from(0, 1e6);
+  drive.key("inertia_kg_m2", &TorsionalInput::drive, "Its moment of inertia.").fallback(0.0, "none").from(0, 1e6);
   auto mesh =
-      declare_mesh({"mesh.pinion_wheel", "Stiffness of the mesh along the line of action.", &Scene::pinion_wheel});
-  return {stage.done(), gear_table("pinion", "The driving gear.", &Scene::pinion),
-          gear_table("wheel", "The driven gear.", &Scene::wheel), drive.done(), mesh.done()};
+      declare_mesh({"mesh.pinion_wheel", "Stiffness of the mesh along the line of action.", &TorsionalInput::mesh});
+  return {stage.done(), gear_table("pinion", "The driving gear.", &TorsionalInput::pinion),
+          gear_table("wheel", "The driven gear.", &TorsionalInput::wheel), drive.done(), mesh.done()};
 }
 
 class Checker : KeyChecks {
  public:
   using KeyChecks::KeyChecks;
-  void run() { wave(scene_.pinion_wheel, "mesh.pinion_wheel"); }
+  void run() { wave(scene_.own<TorsionalInput>().mesh, "mesh.pinion_wheel"); }
 };
 
 constexpr const char* example = R"(title = "Torsional pair"
@@ -138,7 +147,7 @@ class TorsionalPair final : public GearSystem {
   using GearSystem::GearSystem;
 
   [[nodiscard]] std::string describe() const override {
-    return fmt::format("torsional pair, {} and {} teeth", scene().pinion.teeth, scene().wheel.teeth);
+    return fmt::format("torsional pair, {} and {} teeth", input().pinion.teeth, input().wheel.teeth);
   }
 
   void check() const override { (void)gears(); }
@@ -148,22 +157,20 @@ class TorsionalPair final : public GearSystem {
     return {mesh_model(scene(), {.mesh = mesh_name,
                                  .title = "mesh of pinion and wheel",
                                  .pair = pair,
-                                 .input = scene().pinion_wheel,
-                                 .planet = scene().pinion,
-                                 .wheel = scene().wheel,
+                                 .input = input().mesh,
+                                 .planet = input().pinion,
+                                 .wheel = input().wheel,
                                  .planet_name = "pinion",
                                  .wheel_name = "wheel",
-                                 .wheel_support_diameter = scene().wheel.bore_diameter,
+                                 .wheel_support_diameter = input().wheel.bore_diameter,
                                  .mean_force = mean_mesh_force()})};
   }
 
-  [[nodiscard]] double mean_mesh_force() const override {
-    return scene().stage.pinion_torque / gears().pinion().base_radius();
-  }
+  [[nodiscard]] double mean_mesh_force() const override { return input().torque / gears().pinion().base_radius(); }
 
   [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
     if (mesh.computed()) return computed_stiffness(mesh, mesh.ring, options);
-    return prescribed_stiffness(mesh, scene().pinion_wheel, scene(), gears().contact_ratio(), mean_mesh_force());
+    return prescribed_stiffness(mesh, input().mesh, scene(), gears().contact_ratio(), mean_mesh_force());
   }
 
   [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t /*variant*/,
@@ -172,11 +179,10 @@ class TorsionalPair final : public GearSystem {
     const auto mass = [](double inertia, const geometry::Gear& gear) {
       return inertia / std::pow(gear.base_radius(), 2);
     };
-    const double pinion = mass(scene().pinion.inertia.value() + scene().own<DriveInput>().inertia, pair.pinion()),
-                 wheel = mass(scene().wheel.inertia.value(), pair.wheel()), force = mean_mesh_force();
+    const double pinion = mass(input().pinion.inertia.value() + input().drive, pair.pinion()),
+                 wheel = mass(input().wheel.inertia.value(), pair.wheel()), force = mean_mesh_force();
     // What is prescribed is read from the scene.
-    const auto& input = scene().pinion_wheel;
-    const double stiffness = input.mean ? *input.mean : tables.front()->mean_stiffness().value;
+    const double stiffness = input().mesh.mean.value_or(tables.front()->mean_stiffness().value);
     return std::make_unique<LumpedModel>(identity_of(stiffness, force, pinion, wheel), [=](Answer /*wanted*/) {
       return torsional_answer(stiffness, force, pinion, wheel);
     });
@@ -190,9 +196,10 @@ class TorsionalPair final : public GearSystem {
   }
 
  private:
+  [[nodiscard]] const TorsionalInput& input() const { return scene().own<TorsionalInput>(); }
   [[nodiscard]] geometry::GearPair gears() const {
-    return {make_gear(scene(), scene().pinion, geometry::GearKind::external),
-            make_gear(scene(), scene().wheel, geometry::GearKind::external, -1), scene().stage.centre_distance};
+    return {make_gear(scene(), input().pinion, geometry::GearKind::external),
+            make_gear(scene(), input().wheel, geometry::GearKind::external, -1), scene().stage.centre_distance};
   }
 };
 

@@ -31,7 +31,7 @@ Scene at_work(const Scene& own, double accuracy, double speed, double torque) {
   // A changed scene has no assumptions of its own; here they are still those of the results.
   for (auto& input : changed.inputs)
     for (const auto& original : own.inputs)
-      if (original.key == input.key && original.ring == input.ring && original.entry == input.entry)
+      if (original.key == input.key && original.variant == input.variant && original.entry == input.entry)
         input.assumed = original.assumed;
   return changed;
 }

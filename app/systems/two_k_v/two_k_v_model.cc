@@ -10,6 +10,8 @@
 #include "app/results/cached_value.h"
 #include "app/systems/shared/mesh_names.h"
 #include "app/systems/shared/rotors.h"
+#include "app/systems/shared/sun_planet_input.h"
+#include "app/systems/two_k_v/two_k_v_input.h"
 #include "app/systems/two_k_v/two_k_v_members.h"
 #include "core/errors.h"
 #include "core/units.h"
@@ -31,9 +33,11 @@ std::optional<double> half_backlash(const MeshInput& mesh, const DynamicsInput& 
 
 geometry::GearPair sun_planet_pair(const Scene& scene) {
   using geometry::GearKind;
-  const auto sun = geometry_of("sun", [&] { return make_gear(scene, scene.sun, GearKind::external); });
-  const auto planet = geometry_of("planet", [&] { return make_gear(scene, scene.planet, GearKind::external); });
-  const double distance = scene.stage.module * (scene.sun.teeth + scene.planet.teeth) / 2;
+  const auto sun = geometry_of("sun", [&] { return make_gear(scene, sun_and_planets(scene).sun, GearKind::external); });
+  const auto planet =
+      geometry_of("planet", [&] { return make_gear(scene, sun_and_planets(scene).planet, GearKind::external); });
+  const double distance =
+      scene.stage.module * (sun_and_planets(scene).sun.teeth + sun_and_planets(scene).planet.teeth) / 2;
   const double apart = 2 * distance * std::sin(std::numbers::pi / scene.stage.planets);
   if (scene.stage.planets > 1 && apart <= 2 * planet.tip_radius())
     throw InputError(fmt::format(
@@ -52,23 +56,23 @@ void check_two_k_v(const Scene& scene) {
 
 dynamics::TwoKVStage two_k_v_kinematics(const Scene& scene) {
   dynamics::TwoKVStage stage;
-  stage.sun_teeth = scene.sun.teeth;
-  stage.planet_teeth = scene.planet.teeth;
-  stage.pins = scene.arc_gear.pins;
-  stage.arc_teeth = scene.arc_gear.pins - 1;
+  stage.sun_teeth = sun_and_planets(scene).sun.teeth;
+  stage.planet_teeth = sun_and_planets(scene).planet.teeth;
+  stage.pins = two_k_v(scene).arc_gear.pins;
+  stage.arc_teeth = two_k_v(scene).arc_gear.pins - 1;
   stage.cranks = scene.stage.planets;
-  stage.arc_gears = scene.arc_gear.count;
+  stage.arc_gears = two_k_v(scene).arc_gear.count;
   stage.module = scene.stage.module;
   stage.pressure_angle = scene.stage.pressure_angle;
-  stage.eccentricity = scene.arc_gear.eccentricity;
-  stage.crank_angle = scene.crank.angle;
-  stage.output_speed = scene.output.speed;
-  stage.output_torque = scene.output.torque;
+  stage.eccentricity = two_k_v(scene).arc_gear.eccentricity;
+  stage.crank_angle = two_k_v(scene).crank.angle;
+  stage.output_speed = two_k_v(scene).output.speed;
+  stage.output_torque = two_k_v(scene).output.torque;
   return stage;
 }
 
 std::optional<dynamics::ArcToothMesh> arc_tooth_mesh(const Scene& scene) {
-  const auto& a = scene.arc_gear;
+  const auto& a = two_k_v(scene).arc_gear;
   if (!a.pin_circle_diameter || !a.pin_diameter || !a.arc_radius || !a.width) return std::nullopt;
   return dynamics::ArcToothMesh{.pins = a.pins,
                                 .eccentricity = a.eccentricity,
@@ -83,14 +87,14 @@ std::optional<dynamics::ArcToothMesh> arc_tooth_mesh(const Scene& scene) {
 }
 
 std::optional<Scene> compared_scene(const Scene& scene) {
-  std::optional<Scene> changed;
-  for (MeshInput Scene::*const member :
-       std::initializer_list<MeshInput Scene::*>{&Scene::sun_planet, &Scene::arc_pins}) {
-    if ((scene.*member).compare != Compare::computed || is_computed(scene.*member)) continue;
-    if (!changed) changed = scene;
-    ((*changed).*member).stiffness = StiffnessShape::computed;
+  Scene changed = scene;
+  bool any = false;
+  for (auto* mesh : {&sun_and_planets(changed).sun_planet, &two_k_v(changed).arc_pins}) {
+    if (mesh->compare != Compare::computed || is_computed(*mesh)) continue;
+    mesh->stiffness = StiffnessShape::computed;
+    any = true;
   }
-  return changed;
+  return any ? std::optional(std::move(changed)) : std::nullopt;
 }
 
 MeshModel two_k_v_sun_model(const Scene& scene) {
@@ -98,12 +102,12 @@ MeshModel two_k_v_sun_model(const Scene& scene) {
   return mesh_model(scene, {.mesh = sun_planet,
                             .title = "sun-planet mesh",
                             .pair = pair,
-                            .input = scene.sun_planet,
-                            .planet = scene.planet,
-                            .wheel = scene.sun,
+                            .input = sun_and_planets(scene).sun_planet,
+                            .planet = sun_and_planets(scene).planet,
+                            .wheel = sun_and_planets(scene).sun,
                             .planet_name = "planet",
                             .wheel_name = "sun",
-                            .wheel_support_diameter = scene.sun.bore_diameter,
+                            .wheel_support_diameter = sun_and_planets(scene).sun.bore_diameter,
                             .mean_force = two_k_v_kinematics(scene).mean_sun_mesh_force()});
 }
 
@@ -111,7 +115,7 @@ MeshModel arc_pins_model(const Scene& scene) {
   MeshModel model;
   model.mesh = arc_pins;
   model.title = "mesh of arc teeth and pins";
-  if (is_computed(scene.arc_pins)) {
+  if (is_computed(two_k_v(scene).arc_pins)) {
     model.fidelity = "line_contact";
     model.reason = "line contact of pins and concave arcs, shared by all pins on the loaded side";
     model.repeats = "equal teeth on equal pins: one mesh cycle is enough";
@@ -124,15 +128,15 @@ MeshModel arc_pins_model(const Scene& scene) {
 }
 
 MeshResult prescribed_sun_result(const Scene& scene, const MeshModel& model) {
-  return prescribed_stiffness(model, scene.sun_planet, scene, sun_planet_pair(scene).contact_ratio(),
+  return prescribed_stiffness(model, sun_and_planets(scene).sun_planet, scene, sun_planet_pair(scene).contact_ratio(),
                               two_k_v_kinematics(scene).mean_sun_mesh_force());
 }
 
 MeshResult arc_pins_result(const Scene& scene) {
   const auto stage = two_k_v_kinematics(scene);
   const auto model = arc_pins_model(scene);
-  if (!is_computed(scene.arc_pins))
-    return prescribed_stiffness(model, scene.arc_pins, scene, 0, stage.mean_arc_mesh_force());
+  if (!is_computed(two_k_v(scene).arc_pins))
+    return prescribed_stiffness(model, two_k_v(scene).arc_pins, scene, 0, stage.mean_arc_mesh_force());
   const auto mesh = arc_tooth_mesh(scene);
   require(mesh.has_value(), "a checked scene has the dimensions of its arc teeth");
   std::vector<double> torques;
@@ -152,40 +156,40 @@ MeshResult arc_pins_result(const Scene& scene) {
 dynamics::TwoKVStage make_two_k_v(const Scene& scene, const TwoKVTables& tables, dynamics::LoadDependence dependence) {
   if (!scene.dynamics) throw InternalError("internal error: dynamics of a scene without [dynamics]");
   auto stage = two_k_v_kinematics(scene);
-  stage.input_inertia = *scene.input.inertia;
-  stage.sun_inertia = *scene.sun.inertia;
-  stage.planet_inertia = *scene.planet.inertia;
-  stage.planet_mass = *scene.planet.mass;
-  stage.crank_inertia = *scene.crank.inertia;
-  stage.arc_inertia = *scene.arc_gear.inertia;
-  stage.arc_mass = *scene.arc_gear.mass;
-  stage.output_inertia = *scene.output.inertia;
-  stage.sun_mesh = excitation_of(scene.sun_planet, tables.sun, stage.mean_sun_mesh_force(), dependence,
+  stage.input_inertia = *two_k_v(scene).input.inertia;
+  stage.sun_inertia = *sun_and_planets(scene).sun.inertia;
+  stage.planet_inertia = *sun_and_planets(scene).planet.inertia;
+  stage.planet_mass = *sun_and_planets(scene).planet.mass;
+  stage.crank_inertia = *two_k_v(scene).crank.inertia;
+  stage.arc_inertia = *two_k_v(scene).arc_gear.inertia;
+  stage.arc_mass = *two_k_v(scene).arc_gear.mass;
+  stage.output_inertia = *two_k_v(scene).output.inertia;
+  stage.sun_mesh = excitation_of(sun_and_planets(scene).sun_planet, tables.sun, stage.mean_sun_mesh_force(), dependence,
                                  sun_planet_pair(scene).back_flank_phase());
-  stage.arc_mesh = excitation_of(scene.arc_pins, tables.arc, stage.mean_arc_mesh_force(), dependence);
+  stage.arc_mesh = excitation_of(two_k_v(scene).arc_pins, tables.arc, stage.mean_arc_mesh_force(), dependence);
   const double sun = mean_stiffness(stage.sun_mesh), arcs = stage.arc_gears * mean_stiffness(stage.arc_mesh);
   const auto beside = [&](double neighbours, double stiffness) {
     return as_stiff_as_matters(stiffness, neighbours, scene.accuracy);
   };
-  stage.input_shaft = beside(stage.cranks * sun * std::pow(stage.sun_base_radius(), 2), *scene.input.shaft);
+  stage.input_shaft = beside(stage.cranks * sun * std::pow(stage.sun_base_radius(), 2), *two_k_v(scene).input.shaft);
   stage.crank_shaft = beside(sun * std::pow(stage.planet_base_radius(), 2) + arcs * std::pow(stage.eccentricity, 2),
-                             *scene.crank.shaft);
-  stage.crank_bearing = beside(sun + arcs, *scene.crank.bearing);
-  stage.arc_bearing = beside(arcs, *scene.arc_gear.bearing);
-  stage.input_support = scene.input.support;
-  stage.output_support = scene.output.support;
-  stage.sun_half_backlash = half_backlash(scene.sun_planet, *scene.dynamics);
-  stage.arc_half_backlash = half_backlash(scene.arc_pins, *scene.dynamics);
+                             *two_k_v(scene).crank.shaft);
+  stage.crank_bearing = beside(sun + arcs, *two_k_v(scene).crank.bearing);
+  stage.arc_bearing = beside(arcs, *two_k_v(scene).arc_gear.bearing);
+  stage.input_support = two_k_v(scene).input.support;
+  stage.output_support = two_k_v(scene).output.support;
+  stage.sun_half_backlash = half_backlash(sun_and_planets(scene).sun_planet, *scene.dynamics);
+  stage.arc_half_backlash = half_backlash(two_k_v(scene).arc_pins, *scene.dynamics);
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
-  stage.sun_mesh_damping_ratio = scene.sun_planet.damping_ratio;
-  stage.arc_mesh_damping_ratio = scene.arc_pins.damping_ratio;
-  stage.input_damping_ratio = scene.input.damping;
-  stage.crank_shaft_damping_ratio = scene.crank.shaft_damping;
-  stage.crank_bearing_damping_ratio = scene.crank.bearing_damping;
-  stage.arc_bearing_damping_ratio = scene.arc_gear.bearing_damping;
-  stage.output_damping_ratio = scene.output.damping;
+  stage.sun_mesh_damping_ratio = sun_and_planets(scene).sun_planet.damping_ratio;
+  stage.arc_mesh_damping_ratio = two_k_v(scene).arc_pins.damping_ratio;
+  stage.input_damping_ratio = two_k_v(scene).input.damping;
+  stage.crank_shaft_damping_ratio = two_k_v(scene).crank.shaft_damping;
+  stage.crank_bearing_damping_ratio = two_k_v(scene).crank.bearing_damping;
+  stage.arc_bearing_damping_ratio = two_k_v(scene).arc_gear.bearing_damping;
+  stage.output_damping_ratio = two_k_v(scene).output.damping;
   stage.structural_damping = structural_damping(*scene.dynamics);
   stage.rotors = rotors_of(scene);
   return stage;
@@ -197,7 +201,7 @@ dynamics::SimulationOptions two_k_v_simulation(const Scene& scene, const dynamic
 
 TwoKVModels two_k_v_models(const Scene& scene, const TwoKVTables& tables) {
   return {make_two_k_v(scene, tables, dynamics::LoadDependence::nominal),
-          make_two_k_v(scene, tables, scene.dynamics->load_dependence), scene.arc_gear.clearance};
+          make_two_k_v(scene, tables, scene.dynamics->load_dependence), two_k_v(scene).arc_gear.clearance};
 }
 
 std::string two_k_v_id(const TwoKVModels& models, const dynamics::SimulationOptions& options,

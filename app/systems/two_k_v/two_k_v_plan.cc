@@ -6,6 +6,8 @@
 
 #include "app/model/stiff_supports.h"
 #include "app/systems/shared/mesh_names.h"
+#include "app/systems/shared/sun_planet_input.h"
+#include "app/systems/two_k_v/two_k_v_input.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "core/units.h"
 #include "dynamics/steady_state/integration_cost.h"
@@ -14,9 +16,12 @@
 namespace annulus::app {
 
 dynamics::TwoKVStage rough_two_k_v(const Scene& scene) {
-  return make_two_k_v(with_rough_stiffness(scene, {{&Scene::sun_planet, narrower_face(scene, scene.sun, scene.planet)},
-                                                   {&Scene::arc_pins, scene.stage.face_width}}),
-                      {unread_table(sun_planet), unread_table(arc_pins)}, dynamics::LoadDependence::nominal);
+  Scene rough = scene;
+  auto& gears = sun_and_planets(rough);
+  gears.sun_planet = rough_mesh(scene, gears.sun_planet, narrower_face(scene, gears.sun, gears.planet));
+  auto& pins = two_k_v(rough).arc_pins;
+  pins = rough_mesh(scene, pins, scene.stage.face_width);
+  return make_two_k_v(rough, {unread_table(sun_planet), unread_table(arc_pins)}, dynamics::LoadDependence::nominal);
 }
 
 namespace {
@@ -26,8 +31,8 @@ std::vector<Quantity> two_k_v_quantities(const Scene& scene, const geometry::Gea
   std::vector<Quantity> list = {
       quantity("ratio", stage.ratio(),
                "turns of the input per turn of the output: 1 + (planet teeth / sun teeth) × pins"),
-      quantity("input_speed_rpm", scene.output.speed * stage.ratio(), "speed of the input"),
-      quantity("input_torque_Nm", scene.output.torque / stage.ratio(), "torque of the input, without losses"),
+      quantity("input_speed_rpm", two_k_v(scene).output.speed * stage.ratio(), "speed of the input"),
+      quantity("input_torque_Nm", two_k_v(scene).output.torque / stage.ratio(), "torque of the input, without losses"),
       quantity("crank_circle_radius_mm", stage.crank_circle_radius(),
                "from the axis to the cranks: the centre distance of sun and planets"),
       quantity("arc_teeth", stage.arc_teeth, "teeth of an arc gear, one less than pins"),
@@ -56,15 +61,15 @@ std::vector<DofPlan> two_k_v_dofs(const Scene& scene) {
   };
   const std::string planets = fmt::format("planet 1 ... {}", scene.stage.planets),
                     cranks = fmt::format("crank 1 ... {}", scene.stage.planets),
-                    gears = fmt::format("arc gear 1 ... {}", scene.arc_gear.count);
-  return {held("input u", scene.input.support),
+                    gears = fmt::format("arc gear 1 ... {}", two_k_v(scene).arc_gear.count);
+  return {held("input u", two_k_v(scene).input.support),
           {"sun u", true, "turns between input shaft and planets"},
           {planets + " u", true, "each turns between the sun and its crank shaft"},
           {planets + " x", true, "along the circle of the cranks, in the crank's bearings"},
           {cranks + " u", true, "each turns between its planet and the arc gears"},
           {gears + " u", true, "each turns with the output"},
           {gears + " x", true, "along the circle of the eccentric"},
-          held("output u", scene.output.support)};
+          held("output u", two_k_v(scene).output.support)};
 }
 
 std::vector<std::string> stiff_parts(const Scene& scene) {
@@ -77,10 +82,10 @@ std::vector<std::string> stiff_parts(const Scene& scene) {
                       "accuracy compared with its neighbours, and a larger value changes nothing.",
                       key, to_text(given), to_text(taken, 2), fmt::arg("unit", unit)));
   };
-  add("input.shaft_Nm_per_rad", *scene.input.shaft, stage.input_shaft, "N m/rad");
-  add("crank.shaft_Nm_per_rad", *scene.crank.shaft, stage.crank_shaft, "N m/rad");
-  add("crank.bearing_N_per_m", *scene.crank.bearing, stage.crank_bearing, "N/m");
-  add("arc_gear.bearing_N_per_m", *scene.arc_gear.bearing, stage.arc_bearing, "N/m");
+  add("input.shaft_Nm_per_rad", *two_k_v(scene).input.shaft, stage.input_shaft, "N m/rad");
+  add("crank.shaft_Nm_per_rad", *two_k_v(scene).crank.shaft, stage.crank_shaft, "N m/rad");
+  add("crank.bearing_N_per_m", *two_k_v(scene).crank.bearing, stage.crank_bearing, "N/m");
+  add("arc_gear.bearing_N_per_m", *two_k_v(scene).arc_gear.bearing, stage.arc_bearing, "N/m");
   return list;
 }
 
@@ -111,8 +116,8 @@ std::vector<std::string> two_k_v_remarks(const Scene& scene, bool computed) {
 /// Responses on changed tables. Those of arc teeth follow from formulas, and only their phases may be too few.
 int compared_responses(const Scene& scene) {
   constexpr int fewer_phases = 2;
-  if (scene.sun_planet.stiffness == StiffnessShape::computed) return comparisons(1);
-  return scene.arc_pins.stiffness == StiffnessShape::computed ? fewer_phases : 0;
+  if (sun_and_planets(scene).sun_planet.stiffness == StiffnessShape::computed) return comparisons(1);
+  return two_k_v(scene).arc_pins.stiffness == StiffnessShape::computed ? fewer_phases : 0;
 }
 
 }  // namespace
@@ -131,8 +136,9 @@ std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
   // the last again with a looser tolerance. Changed tables likewise.
   const double periods = 2.0 * system.dofs() + 2 + 2.6;
   const auto options = two_k_v_simulation(scene, stage);
-  const int period = std::min(dynamics::times_period(scene.planet.teeth, dynamics::period_in_crank_turns(stage)),
-                              options.max_window_cycles);
+  const int period =
+      std::min(dynamics::times_period(sun_and_planets(scene).planet.teeth, dynamics::period_in_crank_turns(stage)),
+               options.max_window_cycles);
   const auto& asked = scene.dynamics->mesh_cycles;
   const auto planned = [&](const std::string& label, const std::string& variant, int compared) {
     using Course = dynamics::StiffnessCourse;

@@ -5,6 +5,7 @@
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
 #include "app/systems/shared/mesh_names.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "app/systems/two_k_v/two_k_v_members.h"
 #include "core/log.h"
 
@@ -15,7 +16,9 @@ namespace {
 constexpr const char *compared_folder = "computed", *cached_motions = "responses";
 
 /// Whether both scenes take the sun mesh from the same source.
-bool same_sun(const Scene& a, const Scene& b) { return a.sun_planet.stiffness == b.sun_planet.stiffness; }
+bool same_sun(const Scene& a, const Scene& b) {
+  return sun_and_planets(a).sun_planet.stiffness == sun_and_planets(b).sun_planet.stiffness;
+}
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include "app/plan/plan.h"
 #include "app/scene/example_scenes.h"
 #include "app/systems/shared/mesh_names.h"
+#include "app/systems/two_k_v/two_k_v_input.h"
 #include "app/systems/two_k_v/two_k_v_model.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"
@@ -22,7 +23,8 @@ class TwoKVSystem final : public GearSystem {
 
   [[nodiscard]] std::string describe() const override {
     return fmt::format("{} cranks with a planet each, {} arc gears on {} pins, ratio {}", scene().stage.planets,
-                       scene().arc_gear.count, scene().arc_gear.pins, to_text(two_k_v_kinematics(scene()).ratio(), 6));
+                       two_k_v(scene()).arc_gear.count, two_k_v(scene()).arc_gear.pins,
+                       to_text(two_k_v_kinematics(scene()).ratio(), 6));
   }
 
   void check() const override {
@@ -86,10 +88,10 @@ class TwoKVSystem final : public GearSystem {
   [[nodiscard]] std::vector<TurningBody> turning_bodies() const override {
     const auto stage = two_k_v_kinematics(scene());
     std::vector<TurningBody> bodies;
-    if (scene().input.support != rigid)
+    if (two_k_v(scene()).input.support != rigid)
       bodies.push_back(
           {"input", stage.sun_base_radius(), stage.output_speed * stage.ratio(), stage.output_torque / stage.ratio()});
-    if (scene().output.support != rigid)
+    if (two_k_v(scene()).output.support != rigid)
       bodies.push_back({"output", stage.crank_circle_radius(), stage.output_speed, -stage.output_torque});
     return bodies;
   }

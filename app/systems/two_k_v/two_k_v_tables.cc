@@ -1,5 +1,7 @@
 #include "app/scene/gear_tables.h"
 #include "app/systems/shared/rotors.h"
+#include "app/systems/shared/sun_planet_input.h"
+#include "app/systems/two_k_v/two_k_v_input.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"
 
 namespace annulus::app {
@@ -37,7 +39,7 @@ Table two_k_v_stage_table() {
 
 enum class Mass { none, own };
 
-Table turning_gear_table(const char* path, const char* meaning, HubGearInput Scene::*member, Mass mass) {
+Table turning_gear_table(const char* path, const char* meaning, HubGearInput SunPlanetInput::*member, Mass mass) {
   Declarations gear(path, meaning, member);
   declare_teeth(gear, Flanks::external);
   if (mass == Mass::own) declare_mass(gear);
@@ -53,7 +55,7 @@ Table crank_table() {
   Declarations crank("crank",
                      "The crank shafts, one per planet. They turn in bearings of the output carrier; their eccentrics "
                      "carry the arc gears. planet.mass_kg is the mass of a planet with its shaft.",
-                     &Scene::crank);
+                     &TwoKVInput::crank);
   declare_inertia(crank, "Moment of inertia of one shaft without its planet.")
       .required_if(with_dynamics())
       .often_assumed();
@@ -76,7 +78,7 @@ Table arc_gear_table() {
   Declarations arc("arc_gear",
                    "The gears with arc teeth on the eccentrics. They have one tooth less than the housing has pins. "
                    "The contact formulas need the diameters, the arc radius and the width.",
-                   &Scene::arc_gear);
+                   &TwoKVInput::arc_gear);
   const auto computed_arc = computed_or_compared("mesh.arc_pins");
   arc.key("count", &ArcGearInput::count, "Number of arc gears, equally spaced around the eccentrics.")
       .fallback(2, "half a turn apart: their mass forces cancel")
@@ -115,7 +117,8 @@ Table arc_gear_table() {
 }
 
 Table input_shaft_table() {
-  Declarations input("input", "The input shaft with all parts that turn with it; it drives the sun.", &Scene::input);
+  Declarations input("input", "The input shaft with all parts that turn with it; it drives the sun.",
+                     &TwoKVInput::input);
   input.optional();
   declare_inertia(input, "Moment of inertia, motor included.")
       .required_if(with_dynamics(), "times the ratio squared it determines the lowest frequency")
@@ -134,7 +137,7 @@ Table input_shaft_table() {
 }
 
 Table output_table() {
-  Declarations output("output", "The output: the carrier of the cranks, and its operating point.", &Scene::output);
+  Declarations output("output", "The output: the carrier of the cranks, and its operating point.", &TwoKVInput::output);
   output.key("torque_Nm", &OutputInput::torque, "Load on the output.").required().above(0, 1e9);
   output.key("speed_rpm", &OutputInput::speed, "Speed of the output.").required().above(0, 1e6);
   declare_inertia(output, "Moment of inertia of the carrier and all parts that turn with it.")
@@ -164,19 +167,19 @@ Table comparable_mesh_table(Declarations<MeshInput> keys) {
 
 std::vector<Table> two_k_v_tables() {
   return {two_k_v_stage_table(),
-          turning_gear_table("sun", "The sun gear.", &Scene::sun, Mass::none),  // it only turns
-          turning_gear_table("planet", "Each planet gear.", &Scene::planet, Mass::own),
+          turning_gear_table("sun", "The sun gear.", &SunPlanetInput::sun, Mass::none),  // it only turns
+          turning_gear_table("planet", "Each planet gear.", &SunPlanetInput::planet, Mass::own),
           crank_table(),
           arc_gear_table(),
           input_shaft_table(),
           output_table(),
           rotor_table(),
-          comparable_mesh_table(
-              {"mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.", &Scene::sun_planet}),
+          comparable_mesh_table({"mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.",
+                                 &SunPlanetInput::sun_planet}),
           comparable_mesh_table(
               {"mesh.arc_pins",
                "Stiffness of the arc teeth on their pins, prescribed instead of computed by the contact formulas.",
-               &Scene::arc_pins})};
+               &TwoKVInput::arc_pins})};
 }
 
 }  // namespace annulus::app

@@ -5,6 +5,7 @@
 
 #include "app/scene/scene.h"
 #include "app/systems/planetary/stage_geometry.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/csv.h"
 #include "core/units.h"
 #include "tests/verification/outside_cases/outside_case.h"
@@ -71,7 +72,7 @@ BOOST_AUTO_TEST_CASE(closed_form_of_ligata_kahraman_singh) {
       const double meshes = mean_tangent_stiffness(out / "stiffness_sun_planet.csv", force) +
                             mean_tangent_stiffness(out / ring.name / "stiffness_ring_planet.csv", force);
       const double stiffness = 1 / (1 / 1e8 + 1 / meshes);  // the scene has planet bearings of 1e8 N/m
-      const double sun_radius = scene.stage.module * scene.sun.teeth / 2, error = 70 * units::um;
+      const double sun_radius = scene.stage.module * sun_and_planets(scene).sun.teeth / 2, error = 70 * units::um;
       record.close(
           std::string(name) + " planets: K_gamma - 1", "", factor * pattern[0],
           stiffness * sun_radius * error / (2 * geometry.operating_point.sun_torque) * pattern[0], 0.03,

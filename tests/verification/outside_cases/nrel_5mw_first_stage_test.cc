@@ -10,6 +10,7 @@
 
 #include "app/scene/scene.h"
 #include "app/systems/planetary/stage_geometry.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -88,7 +89,8 @@ struct FirstStage {
   /// C_R with the thickness of rim between bore and smallest root diameter.
   [[nodiscard]] double gear_blank() const {
     const auto& web = published.printed("web_thickness_over_face_width");
-    const double rim = published.printed("smallest_root_diameter_sun").value * units::mm - *scene.sun.bore_diameter;
+    const double rim =
+        published.printed("smallest_root_diameter_sun").value * units::mm - *sun_and_planets(scene).sun.bore_diameter;
     return geometry::gear_blank_factor(web.value, 1, rim / 2 / scene.stage.module);
   }
 };
@@ -272,8 +274,8 @@ BOOST_AUTO_TEST_CASE(finite_elements_beside_iso_6336) {
     }
     BOOST_TEST_REQUIRE(largest > 0);
     const double torsion =
-        test::body_torsion(first.stage.planet, *first.scene.planet.bore_diameter / 2, {}) +
-        (sun ? test::body_torsion(first.stage.sun, *first.scene.sun.bore_diameter / 2, {})
+        test::body_torsion(first.stage.planet, *sun_and_planets(first.scene).planet.bore_diameter / 2, {}) +
+        (sun ? test::body_torsion(first.stage.sun, *sun_and_planets(first.scene).sun.bore_diameter / 2, {})
              : test::body_torsion(first.stage.ring, first.geometry.rings.front().outside_radius, {}));
     record.close("largest stiffness with a single pair" + at + ", bodies taken off", "N/(mm um)",
                  1 / (width / largest - torsion) / per_mm_um,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/report/pair_report_parts.h"
 
 namespace annulus::app {
@@ -84,8 +85,8 @@ Section pair_errors_section(const PairRunResult& result) {
   else
     blocks += paragraph(
         phrase("The {} quantile of {}, {} µm, is the amplitude of the error at mesh frequency in the dynamics.",
-               result.scene.manufacturing_error->amount == ErrorAmount::sample ? "drawn" : "exact", code(taken->name),
-               micrometre_text(result.errors.amplitude)));
+               helical_pair(result.scene).manufacturing_error->amount == ErrorAmount::sample ? "drawn" : "exact",
+               code(taken->name), micrometre_text(result.errors.amplitude)));
   return section;
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/report/pair_report_parts.h"
 
 namespace annulus::app {
@@ -88,7 +89,7 @@ Section pair_modes_section(const PairRunResult& result) {
       cells.insert(cells.end(), {"0 " + muted("free rotation"), "–", "–"});
     } else {
       for (const auto& text : {fmt::format("{:.1f}", mode.frequency),
-                               fmt::format("{:.0f}", 60 * mode.frequency / result.scene.pinion.teeth),
+                               fmt::format("{:.0f}", 60 * mode.frequency / helical_pair(result.scene).pinion.teeth),
                                fmt::format("{:.0f} %", 100 * stiffness * approach * approach / (omega * omega))})
         cells.emplace_back(text);
     }

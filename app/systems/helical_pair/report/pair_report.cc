@@ -4,6 +4,7 @@
 #include "app/report/drawings/teeth.h"
 #include "app/report/drawings/transverse_section.h"
 #include "app/sections/geometry_parts.h"
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/report/pair_report_parts.h"
 #include "core/units.h"
 #include "geometry/gear_places.h"
@@ -21,12 +22,16 @@ Section pair_drawings(const PairRunResult& result) {
       .title = "Pinion and wheel: transverse section",
       .label = fmt::format("Pinion and wheel: transverse section to scale, {} and {} teeth, centre distance {} mm",
                            gears.pinion().teeth(), gears.wheel().teeth(), mm_text(gears.centre_distance()))};
-  section.gears.push_back(
-      {{.gear = gears.wheel(), .id = "pair-wheel", .fill = sun_fill, .inner_radius = bore_radius(scene.wheel)},
-       {{axis, stand.wheel}}});
-  section.gears.push_back(
-      {{.gear = gears.pinion(), .id = "pair-pinion", .fill = planet_fill, .inner_radius = bore_radius(scene.pinion)},
-       {{centre, stand.planet}}});
+  section.gears.push_back({{.gear = gears.wheel(),
+                            .id = "pair-wheel",
+                            .fill = sun_fill,
+                            .inner_radius = bore_radius(helical_pair(scene).wheel)},
+                           {{axis, stand.wheel}}});
+  section.gears.push_back({{.gear = gears.pinion(),
+                            .id = "pair-pinion",
+                            .fill = planet_fill,
+                            .inner_radius = bore_radius(helical_pair(scene).pinion)},
+                           {{centre, stand.planet}}});
   section.lengths.push_back({axis, centre, 0, "a = "});
   return geometry_section(Pictures{{drawn(section), drawn(TeethInMesh{.title = "Pinion and wheel in mesh",
                                                                       .id = "pair-teeth",
@@ -36,12 +41,12 @@ Section pair_drawings(const PairRunResult& result) {
                                    {},
                                    "All lengths in millimetres. Left: the pair. Right: its " +
                                        teeth_words("pinion", "wheel") + helical_note(scene.stage.helix_angle)} +
-                          diameter_table({{"pinion", gears.pinion(), bore_radius(scene.pinion)},
-                                          {"wheel", gears.wheel(), bore_radius(scene.wheel)}}));
+                          diameter_table({{"pinion", gears.pinion(), bore_radius(helical_pair(scene).pinion)},
+                                          {"wheel", gears.wheel(), bore_radius(helical_pair(scene).wheel)}}));
 }
 
 Section pair_results(const PairRunResult& result) {
-  const auto& stage = result.scene.stage;
+  const auto& stage = helical_pair(result.scene).stage;
   std::string conditions =
       fmt::format("At {} and {} r/min of the pinion, error at mesh frequency {}. ",
                   text_in_unit(stage.pinion_torque, shown_units::torque), to_text(stage.pinion_speed / units::rpm, 6),
@@ -66,18 +71,20 @@ Page pair_report(const PairRunResult& result) {
   const auto& scene = result.scene;
   NamedMeshes meshes;
   if (result.mesh.computed) meshes.emplace_back("Pinion and wheel", &*result.mesh.computed);
-  return run_page(result,
-                  {.words = fmt::format("{} and {} teeth, {} N m at {} r/min of the pinion, mesh frequency {} Hz",
-                                        scene.pinion.teeth, scene.wheel.teeth, to_text(scene.stage.pinion_torque),
-                                        to_text(scene.stage.pinion_speed / units::rpm, 6),
-                                        to_text(scene.pinion.teeth * scene.stage.pinion_speed / units::rpm / 60, 6)),
-                   .answer = pair_verdict(result),
-                   .results = {pair_drawings(result), pair_results(result), pair_conclusions_section(result),
-                               pair_errors_section(result), pair_shares_section(result)},
-                   .meshes = meshes,
-                   .sections = {pair_stiffness_section(result, meshes), contact_section(meshes),
-                                pair_motion_section(result), pair_modes_section(result)},
-                   .checks = result.response ? solution_checks({{"pair", &result.response->figures}}) : Blocks()});
+  return run_page(
+      result,
+      {.words = fmt::format(
+           "{} and {} teeth, {} N m at {} r/min of the pinion, mesh frequency {} Hz", helical_pair(scene).pinion.teeth,
+           helical_pair(scene).wheel.teeth, to_text(helical_pair(scene).stage.pinion_torque),
+           to_text(helical_pair(scene).stage.pinion_speed / units::rpm, 6),
+           to_text(helical_pair(scene).pinion.teeth * helical_pair(scene).stage.pinion_speed / units::rpm / 60, 6)),
+       .answer = pair_verdict(result),
+       .results = {pair_drawings(result), pair_results(result), pair_conclusions_section(result),
+                   pair_errors_section(result), pair_shares_section(result)},
+       .meshes = meshes,
+       .sections = {pair_stiffness_section(result, meshes), contact_section(meshes), pair_motion_section(result),
+                    pair_modes_section(result)},
+       .checks = result.response ? solution_checks({{"pair", &result.response->figures}}) : Blocks()});
 }
 
 }  // namespace annulus::app

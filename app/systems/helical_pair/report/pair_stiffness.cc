@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/report/pair_report_parts.h"
 #include "fem/closed_form/helical_table.h"
 
@@ -87,7 +88,7 @@ Series prescribed_wave(const std::string& label, double mean, const MeshInput& i
 
 Pictures cycle_picture(const PairRunResult& result) {
   Plot plot = wide_plot("Mesh stiffness along the normal, over a mesh cycle", "mesh cycle", "N/µm");
-  const auto& input = result.scene.pinion_wheel;
+  const auto& input = helical_pair(result.scene).pinion_wheel;
   const auto& geometry = result.geometry;
   for (const auto& s : result.stiffnesses) {
     if (s.source == "closed_form" && std::isfinite(s.value))

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/systems/planetary/rim_coupling.h"
 
@@ -55,7 +56,7 @@ Section coupling_section(const RunResult& result) {
                                             "whole period. Compare the rows with each other, not with the key results.",
                                             cycles)) +
                       effect;
-  if (!effect.rows.empty() && result.scene.stage.held != geometry::StageMember::ring)
+  if (!effect.rows.empty() && planetary(result.scene).stage.held != geometry::StageMember::ring)
     section.blocks +=
         paragraph("Elastic modes are not compared: the ring turns, and they would need its Coriolis forces.");
   if (!negligible.empty())

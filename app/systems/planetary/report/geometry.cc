@@ -8,9 +8,11 @@
 #include "app/report/drawings/dimension.h"
 #include "app/report/drawings/teeth.h"
 #include "app/sections/geometry_parts.h"
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "app/systems/shared/sun_and_planets.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "geometry/gear_places.h"
 
 namespace annulus::app {
@@ -30,7 +32,7 @@ bool same_teeth(const geometry::GearPair& a, const geometry::GearPair& b) {
 
 TransverseSection stage_section(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                 const std::string& id) {
-  const auto& input = scene.rings.at(ring);
+  const auto& input = planetary(scene).rings.at(ring);
   const auto& made = geometry.rings.at(ring);
   const auto& set = made.set;
   const auto stand = geometry::stage_places(set);
@@ -60,12 +62,12 @@ Section drawings_section(const RunResult& result) {
       "All lengths in millimetres. The sun turns counter-clockwise and touches planet 1 (at the top) in the pitch "
       "point." +
       helical_note(scene.stage.helix_angle));
-  std::vector<NamedGear> gears = {{"sun", rings.front().set.sun(), bore_radius(scene.sun)},
-                                  {"planet", rings.front().set.planet(), bore_radius(scene.planet)}};
+  std::vector<NamedGear> gears = {{"sun", rings.front().set.sun(), bore_radius(sun_and_planets(scene).sun)},
+                                  {"planet", rings.front().set.planet(), bore_radius(sun_and_planets(scene).planet)}};
   for (const auto& ring : rings) gears.push_back({"ring, " + ring.name, ring.set.ring(), ring.outside_radius});
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const auto& ring = rings[i];
-    const auto& input = scene.rings[i];
+    const auto& input = planetary(scene).rings[i];
     const std::string id = fmt::format("drawing{}", i);
     const AxialSection axial{
         .title = ring.name + ": axial section of the ring",

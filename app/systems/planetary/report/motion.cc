@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "core/units.h"
 
@@ -34,7 +35,7 @@ PageTable motion_table(const RunResult& result) {
     const auto& f = m.pin_force_mean_tangential;
     return std::accumulate(f.begin(), f.end(), 0.0) / static_cast<double>(f.size());
   });
-  if (result.scene.supports.planet_clearance > 0)
+  if (planetary(result.scene).supports.planet_clearance > 0)
     rows.push_back({"smallest load zone of a planet bearing, degrees",
                     [](const StageResponse& r) { return Text(to_text(r.motion.load_zone_min / units::deg, 3)); }});
   row("largest force on the sun's support", force, [](const StageMotion& m) { return m.sun_support_max; });

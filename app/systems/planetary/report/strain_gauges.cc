@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "core/units.h"
 
@@ -72,11 +73,11 @@ Section strain_gauges_section(const RunResult& result) {
     section.blocks += Pictures{{std::move(plot)}} + table;
     PageTable factors{.head = {"gauges across the face", phrase("K{} as they measure it", subscript("Hβ")),
                                phrase("K{} of the contact", subscript("Hβ"))}};
-    for (std::size_t g = 0; g < result.scene.strain_gauges.size(); ++g) {
+    for (std::size_t g = 0; g < planetary(result.scene).strain_gauges.size(); ++g) {
       const auto factor = readings->face_load_factor(g);
       if (!factor) continue;
       const auto contact = ring.mesh.peak("face_load_factor");
-      factors.rows.push_back({result.scene.strain_gauges[g].name, to_text(*factor, 4),
+      factors.rows.push_back({planetary(result.scene).strain_gauges[g].name, to_text(*factor, 4),
                               contact ? to_text(contact->value, 4) : std::string("–")});
     }
     if (!factors.rows.empty()) section.blocks += factors;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "core/not_known.h"
@@ -160,7 +161,7 @@ Section supports_section(const RunResult& result) {
   for (std::size_t i = 0; i < result.rings.size(); ++i) {
     const auto& ring = result.rings[i];
     if (ring.mesh.pins.rows.empty()) continue;
-    const auto& input = result.scene.rings[i];
+    const auto& input = planetary(result.scene).rings[i];
     const auto words = ring_structure(input).words();
     section.blocks += Pictures{{state_map(input, ring.mesh)},
                                {},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 
 namespace annulus::app {
@@ -70,8 +71,8 @@ PageTable contributions_table(const RingResult& ring) {
 Section tolerances_section(const RunResult& result) {
   Section section{
       "tolerances", "Load sharing within the tolerances", {}, "Load sharing of assemblies within the tolerances"};
-  if (!result.scene.tolerances || responses_of(result).empty()) return section;
-  const auto& t = *result.scene.tolerances;
+  if (!planetary(result.scene).tolerances || responses_of(result).empty()) return section;
+  const auto& t = *planetary(result.scene).tolerances;
   const auto tabulated = tabulated_sharing(result.scene.stage.planets);
   section.blocks = paragraph(fmt::format(
       "{} assemblies (seed {}), {} distributed within their zones, in quasi-static equilibrium. K_γ is the largest "

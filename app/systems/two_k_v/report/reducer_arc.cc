@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/systems/two_k_v/report/reducer_report_parts.h"
+#include "app/systems/two_k_v/two_k_v_input.h"
 
 namespace annulus::app {
 
@@ -8,7 +9,7 @@ Blocks arc_pins_blocks(const TwoKVResult& result) {
   if (!result.arc) return {};
   const auto& arc = *result.arc;
   const double even = two_k_v_kinematics(result.scene).arc_torque(),
-               uneven = dynamics::uneven_share * result.scene.output.torque;
+               uneven = dynamics::uneven_share * two_k_v(result.scene).output.torque;
   const auto position = dynamics::arc_position(arc, even, 0);
   const double formula = dynamics::largest_pin_force(arc, even);
   Series bars{.label = "force", .colour = 2, .style = Series::Style::bars};

@@ -7,6 +7,7 @@
 #include "app/report/drawings/teeth.h"
 #include "app/sections/geometry_parts.h"
 #include "app/systems/shared/sun_and_planets.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "app/systems/two_k_v/report/reducer_report_parts.h"
 #include "geometry/gear_places.h"
 #include "geometry/pin_gear_outline.h"
@@ -76,8 +77,8 @@ Section drawings_section(const TwoKVResult& result) {
     words += arc_words(*result.arc);
   }
   return geometry_section(Pictures{pictures, {}, words} +
-                          diameter_table({{"sun", pair.wheel(), bore_radius(scene.sun)},
-                                          {"planet", pair.pinion(), bore_radius(scene.planet)}}));
+                          diameter_table({{"sun", pair.wheel(), bore_radius(sun_and_planets(scene).sun)},
+                                          {"planet", pair.pinion(), bore_radius(sun_and_planets(scene).planet)}}));
 }
 
 }  // namespace annulus::app

@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "app/systems/shared/mesh_names.h"
+#include "app/systems/shared/sun_planet_input.h"
 #include "app/systems/two_k_v/report/reducer_report_parts.h"
+#include "app/systems/two_k_v/two_k_v_input.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -62,7 +64,7 @@ std::optional<Plot> spectrum_plot(const std::string& name, const TwoKVCase& show
 /// Sun mesh cycles shown of the period: enough to see the shape of a cycle and how the next one differs.
 constexpr double shown_sun_cycles = 6;
 
-double shown_turns(const TwoKVCase& shown) { return shown_sun_cycles / shown.scene.planet.teeth; }
+double shown_turns(const TwoKVCase& shown) { return shown_sun_cycles / sun_and_planets(shown.scene).planet.teeth; }
 
 Plot force_plot(const std::string& title, const std::string& mesh, const TwoKVCase& shown) {
   std::vector<Line> lines;
@@ -125,7 +127,7 @@ Blocks motion_checks(const TwoKVResult& result) {
 Section reducer_motion_section(const TwoKVResult& result) {
   Section section{"motion", "Motion under load"};
   if (!result.own.motion) return section;
-  const auto& output = result.scene.output;
+  const auto& output = two_k_v(result.scene).output;
   const auto& m = *result.own.motion;
   std::vector<Text> wind_up;
   for (const auto& [name, shown] : shown_cases(result))

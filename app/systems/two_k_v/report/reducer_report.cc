@@ -1,4 +1,5 @@
 #include "app/systems/two_k_v/report/reducer_report_parts.h"
+#include "app/systems/two_k_v/two_k_v_input.h"
 
 #include <fmt/format.h>
 
@@ -32,8 +33,9 @@ Page reducer_report(const TwoKVResult& result) {
   for (const auto* mesh : run.meshes()) solved.emplace_back("Sun mesh", mesh);
   return run_page(
       run,
-      {.words = fmt::format("ratio {}, {} N m at {} r/min of the output", to_text(two_k_v_kinematics(scene).ratio(), 6),
-                            to_text(scene.output.torque, 5), to_text(scene.output.speed / units::rpm, 5)),
+      {.words =
+           fmt::format("ratio {}, {} N m at {} r/min of the output", to_text(two_k_v_kinematics(scene).ratio(), 6),
+                       to_text(two_k_v(scene).output.torque, 5), to_text(two_k_v(scene).output.speed / units::rpm, 5)),
        .answer = reducer_verdict(result),
        .results = {drawings_section(result),
                    key_results(result,

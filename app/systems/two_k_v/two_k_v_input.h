@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "app/scene/inputs/common_input.h"
+#include "app/scene/scene.h"
 #include "dynamics/systems/two_k_v/arc_tooth.h"
 
 namespace annulus::app {
@@ -38,7 +38,7 @@ struct OutputInput {
   std::optional<double> damping;
 };
 
-/// What the scene of a 2K-V reducer has besides stage, material, sun, planets and dynamics.
+/// What the scene of a 2K-V reducer has of its own, besides sun and planets (sun_planet_input.h).
 struct TwoKVInput {
   CrankInput crank;
   ArcGearInput arc_gear;
@@ -46,5 +46,8 @@ struct TwoKVInput {
   InputShaftInput input;
   OutputInput output;
 };
+
+[[nodiscard]] inline TwoKVInput& two_k_v(Scene& scene) { return scene.own<TwoKVInput>(); }
+[[nodiscard]] inline const TwoKVInput& two_k_v(const Scene& scene) { return scene.own<TwoKVInput>(); }
 
 }  // namespace annulus::app

@@ -4,12 +4,24 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/inputs/common_input.h"
+#include "app/scene/scene.h"
 #include "fem/problem/strain_gauge.h"
+#include "geometry/power_flow.h"
 
 namespace annulus::app {
 
+enum class RimCoupling { automatic, none, statical, elastic };
 enum class Structure { traditional, thin_walled, pinned, bolted, splined, clamped };
+
+/// Keys of [stage] that planetary stages alone have.
+struct PlanetaryStageInput {
+  std::vector<double> planet_angles;                                        ///< rad; empty: equally spaced
+  std::optional<geometry::StageMember> held = geometry::StageMember::ring;  ///< absent: none, a differential
+  geometry::StageMember drives = geometry::StageMember::sun;
+  std::optional<double> power, sun_torque, carrier_torque, ring_torque;  ///< W, N m; exactly one is given
+  /// rad/s, counter-clockwise; one is given, two of a differential.
+  std::optional<double> sun_speed, carrier_speed, ring_speed;
+};
 
 struct CarrierInput {
   std::optional<double> mass, inertia;
@@ -59,6 +71,21 @@ struct SupportInput {
   }
 };
 
+/// An eccentricity turns with its body; a position error is fixed in the housing or on the carrier.
+struct BodyErrorInput {
+  double eccentricity = 0, eccentricity_phase = 0, position = 0, position_phase = 0;
+};
+
+struct PlanetaryErrorInput {
+  std::vector<double> planet_eccentricity, planet_eccentricity_phase, planet_pin_position, planet_pin_position_phase;
+  /// m, one per tooth; of planets for all alike or one list after the other.
+  std::vector<double> sun_pitch, planet_pitch, ring_pitch;
+  std::optional<int> sun_pitch_class, planet_pitch_class, ring_pitch_class;  ///< they are drawn within
+  int pitch_seed = 0;
+  BodyErrorInput sun, ring, carrier;
+  double sun_planet_misalignment = 0, ring_planet_misalignment = 0;  ///< over the face width, normal to the flanks
+};
+
 enum class ToleranceLaw { normal, uniform };
 
 /// Tolerances of the gears and the carrier, and the assemblies drawn within them.
@@ -82,14 +109,20 @@ struct StrainGaugeInput {
   std::vector<double> axial_positions;  ///< m, from the middle of the common face; empty: there
 };
 
-/// What the scene of a planetary stage has besides stage, material, errors and dynamics.
+/// What the scene of a planetary stage has of its own, besides sun and planets (sun_planet_input.h).
 struct PlanetaryInput {
+  PlanetaryStageInput stage;
   CarrierInput carrier;
   std::vector<RingInput> rings;
   SupportInput supports;
   MeshInput ring_planet;
+  RimCoupling rim_coupling = RimCoupling::automatic;  ///< of [dynamics]
+  PlanetaryErrorInput errors;
   std::optional<ToleranceInput> tolerances;
   std::vector<StrainGaugeInput> strain_gauges;
 };
+
+[[nodiscard]] inline PlanetaryInput& planetary(Scene& scene) { return scene.own<PlanetaryInput>(); }
+[[nodiscard]] inline const PlanetaryInput& planetary(const Scene& scene) { return scene.own<PlanetaryInput>(); }
 
 }  // namespace annulus::app

@@ -4,12 +4,25 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/inputs/common_input.h"
+#include "app/scene/scene.h"
 
 namespace annulus::app {
 
 enum class ErrorDivisor { printed, exact };
 enum class ErrorAmount { sample, exact };
+
+/// Keys of [stage] that pairs alone have: N m, rad/s.
+struct PairStageInput {
+  double pinion_torque = 0, pinion_speed = 0;
+};
+
+/// Waves along the normal of the flanks, at mesh frequency and once per turn; misalignment over the face width.
+struct PairErrorInput {
+  std::optional<double> mesh_error;
+  double mesh_error_phase = 0;
+  double pinion_error = 0, pinion_error_phase = 0, wheel_error = 0, wheel_error_phase = 0;
+  double pinion_wheel_misalignment = 0;
+};
 
 /// A gear of a helical pair; its bearings: `rigid` drops the DOF.
 struct PairGearInput : HubGearInput {
@@ -32,12 +45,17 @@ struct TransmissionErrorInput {
   std::vector<double> pinion_torques, pinion_speeds;
 };
 
-/// What the scene of a helical pair has besides stage, material, errors and dynamics.
+/// What the scene of a helical pair has of its own.
 struct PairInput {
+  PairStageInput stage;
   PairGearInput pinion, wheel;
   MeshInput pinion_wheel;
+  PairErrorInput errors;
   std::optional<ManufacturingErrorInput> manufacturing_error;
   std::optional<TransmissionErrorInput> transmission_error;
 };
+
+[[nodiscard]] inline PairInput& helical_pair(Scene& scene) { return scene.own<PairInput>(); }
+[[nodiscard]] inline const PairInput& helical_pair(const Scene& scene) { return scene.own<PairInput>(); }
 
 }  // namespace annulus::app
