@@ -34,7 +34,7 @@ double nodes_of_rim(const geometry::SectorResolution& r, double rows, int degree
 double solid_unknowns(const LoadedMeshProblem& problem, const BodyResolution& r, const geometry::Gear& gear, bool wheel,
                       int degree, const SolvedFace& face) {
   const auto& section = r.section;
-  const double overhang = (wheel ? problem.wheel_overhang : problem.planet_overhang).total() / (face.half ? 2 : 1);
+  const double overhang = (wheel ? problem.wheel_overhang : problem.pinion_overhang).total() / (face.half ? 2 : 1);
   const double cells = face.solved(r.face_cells) + std::ceil(r.face_cells * overhang / problem.face_width);
   double nodes = nodes_of_section(section, degree) * (degree * cells + 1);
   // The nodes of a plane of symmetry stay in it.

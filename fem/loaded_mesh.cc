@@ -59,7 +59,7 @@ class Refinement {
     result.level = level;
     result.degree = settings_.degree;
     result.worst_error_relative = errors_.worst;
-    result.planet_stress_error = errors_.planet_stress;
+    result.pinion_stress_error = errors_.pinion_stress;
     result.wheel_stress_error = errors_.wheel_stress;
     return result;
   }

@@ -35,7 +35,7 @@ class SolidFace::Bodies {
         flanks_(solved_pair(problem.pair)),
         bodies_(build_bodies(problem_, flanks_, settings, level)),
         options_(options(settings, level)),
-        system_(flanks_, *bodies_.planet, *bodies_.wheel, nullptr, problem_.materials, bodies_.slice_edges, options_) {
+        system_(flanks_, *bodies_.pinion, *bodies_.wheel, nullptr, problem_.materials, bodies_.slice_edges, options_) {
     const auto& edges = bodies_.slice_edges;
     for (std::size_t s = 0; s + 1 < edges.size(); ++s)
       stations_.push_back((edges[s] + edges[s + 1]) / 2 - (edges.front() + edges.back()) / 2);
@@ -74,7 +74,7 @@ class SolidFace::Bodies {
   /// m, of the elements along the line of action, from the pitch point into the driven gear.
   [[nodiscard]] Eigen::VectorXd arms(const ToothPairs& pairs) const {
     const auto& pair = flanks_.pair();
-    const double sign = pair.driver() == geometry::Driver::pinion ? 1 : -1;
+    const double sign = pair.driver() == geometry::GearRole::pinion ? 1 : -1;
     Eigen::VectorXd arms(pairs.contacts);
     Eigen::Index at = 0;
     for (const auto& p : pairs.pairs)
@@ -115,7 +115,7 @@ class SolidFace::Bodies {
     // As long as those of a table, although the window is that of more load.
     options.elements =
         static_cast<int>(std::ceil(std::sqrt(first_reach) * pressure_elements(problem_, settings, level)));
-    options.gaps = {problem_.misalignment, problem_.planet_overhang.below, problem_.wheel_overhang.below};
+    options.gaps = {problem_.misalignment, problem_.pinion_overhang.below, problem_.wheel_overhang.below};
     return options;
   }
 

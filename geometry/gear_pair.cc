@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/units.h"
@@ -15,9 +16,9 @@ namespace annulus::geometry {
 
 namespace {
 
-std::string pair_name(const Gear& planet, const Gear& wheel) {
+std::string pair_name(const Gear& pinion, const Gear& wheel) {
   return fmt::format("the {} mesh of {} and {} teeth", wheel.kind() == GearKind::internal ? "internal" : "external",
-                     planet.teeth(), wheel.teeth());
+                     pinion.teeth(), wheel.teeth());
 }
 
 /// What brings the start of an involute nearer to the root.
@@ -32,11 +33,11 @@ double roll_at(const Gear& gear, double radius) {
   return std::sqrt(std::max(0.0, (radius - base) * (radius + base)));
 }
 
-double checked_working_angle(const Gear& planet, const Gear& wheel, double centre_distance) {
-  const auto name = pair_name(planet, wheel);
-  if (planet.kind() != GearKind::external) throw GeometryError(name + ": the first gear has to be an external one");
+double checked_working_angle(const Gear& pinion, const Gear& wheel, double centre_distance, const PairNames& names) {
+  const auto name = pair_name(pinion, wheel);
+  if (pinion.kind() != GearKind::external) throw GeometryError(name + ": the first gear has to be an external one");
   // The same rack has to generate both: typed values, so equal up to rounding.
-  const auto& p = planet.parameters();
+  const auto& p = pinion.parameters();
   const auto& w = wheel.parameters();
   if (std::abs(p.module - w.module) > 1e-9 * p.module || std::abs(p.pressure_angle - w.pressure_angle) > 1e-9) {
     throw GeometryError(fmt::format(
@@ -49,17 +50,17 @@ double checked_working_angle(const Gear& planet, const Gear& wheel, double centr
                                     name, p.helix_angle / units::deg, w.helix_angle / units::deg,
                                     internal ? "of the same hand (the same sign)" : "of opposite hands (signs)"));
   }
-  if (internal && wheel.teeth() <= planet.teeth()) {
-    throw GeometryError(fmt::format("{}: the internal gear needs more teeth than the planet", name));
+  if (internal && wheel.teeth() <= pinion.teeth()) {
+    throw GeometryError(fmt::format("{}: the internal gear needs more teeth than the {}", name, names.pinion));
   }
   const double base_distance =
-      internal ? wheel.base_radius() - planet.base_radius() : wheel.base_radius() + planet.base_radius();
+      internal ? wheel.base_radius() - pinion.base_radius() : wheel.base_radius() + pinion.base_radius();
   if (!(centre_distance > base_distance)) {
     throw GeometryError(
         fmt::format("{}: no working pressure angle exists at the centre distance {:.4f} mm; it has to be larger than "
                     "{:.4f} mm (reference centre distance {:.4f} mm)",
                     name, centre_distance / units::mm, base_distance / units::mm,
-                    base_distance / std::cos(planet.transverse_pressure_angle()) / units::mm));
+                    base_distance / std::cos(pinion.transverse_pressure_angle()) / units::mm));
   }
   return std::acos(base_distance / centre_distance);
 }
@@ -67,20 +68,22 @@ double checked_working_angle(const Gear& planet, const Gear& wheel, double centr
 }  // namespace
 
 GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance)
-    : GearPair(planet, wheel, centre_distance, wheel.kind() == GearKind::internal ? Driver::pinion : Driver::wheel) {}
+    : GearPair(planet, wheel, centre_distance, wheel.kind() == GearKind::internal ? GearRole::pinion : GearRole::wheel,
+               {"planet", wheel.kind() == GearKind::internal ? "ring" : "sun"}) {}
 
-GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance, Driver driver)
-    : pinion_(planet),
+GearPair::GearPair(const Gear& pinion, const Gear& wheel, double centre_distance, GearRole driver, PairNames names)
+    : pinion_(pinion),
       wheel_(wheel),
       driver_(driver),
+      names_(std::move(names)),
       centre_distance_(centre_distance),
-      working_pressure_angle_(checked_working_angle(planet, wheel, centre_distance)),
+      working_pressure_angle_(checked_working_angle(pinion, wheel, centre_distance, names_)),
       normal_backlash_(0) {
   // On the working pitch circles the circular pitch has to hold both teeth; the rest is circumferential backlash.
   const double cosine = std::cos(working_pressure_angle_);
-  const double planet_pitch_radius = pinion_.base_radius() / cosine;
+  const double pinion_pitch_radius = pinion_.base_radius() / cosine;
   const double wheel_pitch_radius = wheel_.base_radius() / cosine;
-  const double along_action = pinion_.base_pitch() - cosine * (pinion_.tooth_thickness(planet_pitch_radius) +
+  const double along_action = pinion_.base_pitch() - cosine * (pinion_.tooth_thickness(pinion_pitch_radius) +
                                                                wheel_.tooth_thickness(wheel_pitch_radius));
   constexpr double rounding = 1e-13;  // of a difference of pitches
   if (std::abs(along_action) > rounding * pinion_.base_pitch())
@@ -92,7 +95,7 @@ GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance
         "{} has no room: its normal backlash is {:.4f} um at the centre distance {:.4f} mm; {} by {:.5f} or {} the "
         "centre distance",
         pair_name(pinion_, wheel_), normal_backlash_ / units::um, centre_distance_ / units::mm,
-        internal() ? "raise the difference of the profile shifts (ring - planet)"
+        internal() ? fmt::format("raise the difference of the profile shifts ({} - {})", names_.wheel, names_.pinion)
                    : "lower the sum of the profile shifts",
         shift, internal() ? "reduce" : "raise"));
   }
@@ -113,17 +116,18 @@ GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance
                     std::abs(p.axial_offset - w.axial_offset) / units::mm));
   }
   if (total_contact_ratio() < 1) {
-    throw GeometryError(
-        fmt::format("{} has a contact ratio of {:.4f}; at least 1 is needed: {} or reduce the working pressure angle "
-                    "({:.4f} deg)",
-                    pair_name(pinion_, wheel_), total_contact_ratio(),
-                    internal() ? "enlarge the planet's tip diameter, reduce the ring's" : "enlarge the tip diameters",
-                    working_pressure_angle_ / units::deg));
+    throw GeometryError(fmt::format(
+        "{} has a contact ratio of {:.4f}; at least 1 is needed: {} or reduce the working pressure angle "
+        "({:.4f} deg)",
+        pair_name(pinion_, wheel_), total_contact_ratio(),
+        internal() ? fmt::format("enlarge the {}'s tip diameter, reduce the {}'s", names_.pinion, names_.wheel)
+                   : "enlarge the tip diameters",
+        working_pressure_angle_ / units::deg));
   }
 }
 
 double GearPair::back_flank_phase() const {
-  const Gear& driving = driver_ == Driver::pinion ? pinion_ : wheel_;
+  const Gear& driving = driver_ == GearRole::pinion ? pinion_ : wheel_;
   const double radius = driving.base_radius() / std::cos(working_pressure_angle_);
   return driving.tooth_thickness(radius) / (radius * driving.pitch_angle());
 }
@@ -152,9 +156,9 @@ double GearPair::overlap_ratio() const {
   return common_face().width * std::sin(std::abs(p.helix_angle)) / (std::numbers::pi * p.module);
 }
 
-double GearPair::wheel_roll_length(double planet_roll) const {
+double GearPair::wheel_roll_length(double pinion_roll) const {
   const double length = centre_distance_ * std::sin(working_pressure_angle_);
-  return internal() ? length + planet_roll : length - planet_roll;
+  return internal() ? length + pinion_roll : length - pinion_roll;
 }
 
 double GearPair::relative_curvature(double pinion_roll) const {
@@ -163,71 +167,72 @@ double GearPair::relative_curvature(double pinion_roll) const {
 
 void GearPair::check_tips() const {
   const auto name = pair_name(pinion_, wheel_);
-  const char* wheel_word = internal() ? "ring" : "sun";
+  const auto& [pinion, wheel] = names_;
   if (roll_low_ < 0) {
     throw GeometryError(fmt::format(
         "{}: {} interference: the tip of the {} (diameter {:.4f} mm) touches {:.4f} mm beyond the start of the "
-        "planet's involute; {} its tip diameter or raise the planet's profile shift",
-        name, internal() ? "involute" : "tip", wheel_word, 2 * wheel_.tip_form_radius() / units::mm,
-        -roll_low_ / units::mm, internal() ? "enlarge" : "reduce"));
+        "{}'s involute; {} its tip diameter or raise the {}'s profile shift",
+        name, internal() ? "involute" : "tip", wheel, 2 * wheel_.tip_form_radius() / units::mm, -roll_low_ / units::mm,
+        pinion, internal() ? "enlarge" : "reduce", pinion));
   }
-  const double planet_form = roll_at(pinion_, pinion_.form_radius());
-  if (roll_low_ < planet_form) {
-    throw GeometryError(fmt::format(
-        "{}: tip interference: the tip of the {} (diameter {:.4f} mm) touches the planet at the diameter "
-        "{:.4f} mm, below "
-        "its form diameter {:.4f} mm (start of the involute); {} that tip diameter to {:.4f} mm, or reduce "
-        "the planet's {}",
-        name, wheel_word, 2 * wheel_.tip_form_radius() / units::mm,
-        2 * std::hypot(pinion_.base_radius(), roll_low_) / units::mm, 2 * pinion_.form_radius() / units::mm,
-        internal() ? "enlarge" : "reduce",
-        2 * std::hypot(wheel_.base_radius(), wheel_roll_length(planet_form)) / units::mm, root_remedy(pinion_)));
+  const double pinion_form = roll_at(pinion_, pinion_.form_radius());
+  if (roll_low_ < pinion_form) {
+    throw GeometryError(
+        fmt::format("{}: tip interference: the tip of the {} (diameter {:.4f} mm) touches the {} at the diameter "
+                    "{:.4f} mm, below its form diameter {:.4f} mm (start of the involute); {} that tip diameter to "
+                    "{:.4f} mm, or reduce "
+                    "the {}'s {}",
+                    name, wheel, 2 * wheel_.tip_form_radius() / units::mm, pinion,
+                    2 * std::hypot(pinion_.base_radius(), roll_low_) / units::mm, 2 * pinion_.form_radius() / units::mm,
+                    internal() ? "enlarge" : "reduce",
+                    2 * std::hypot(wheel_.base_radius(), wheel_roll_length(pinion_form)) / units::mm, pinion,
+                    root_remedy(pinion_)));
   }
   const double wheel_roll = wheel_roll_length(roll_high_);
   const double wheel_form = roll_at(wheel_, wheel_.form_radius());
   if (internal() ? wheel_roll > wheel_form : wheel_roll < wheel_form) {
     throw GeometryError(fmt::format(
-        "{}: tip interference: the tip of the planet touches the {} at roll length {:.4f} mm, its involute ends at "
-        "{:.4f} mm (form diameter {:.4f} mm); reduce the planet's tip diameter (now {:.4f} mm), or the {}'s {}",
-        name, wheel_word, wheel_roll / units::mm, wheel_form / units::mm, 2 * wheel_.form_radius() / units::mm,
-        2 * pinion_.tip_form_radius() / units::mm, wheel_word, root_remedy(wheel_)));
+        "{}: tip interference: the tip of the {} touches the {} at roll length {:.4f} mm, its involute ends at "
+        "{:.4f} mm (form diameter {:.4f} mm); reduce the {}'s tip diameter (now {:.4f} mm), or the {}'s {}",
+        name, pinion, wheel, wheel_roll / units::mm, wheel_form / units::mm, 2 * wheel_.form_radius() / units::mm,
+        pinion, 2 * pinion_.tip_form_radius() / units::mm, wheel, root_remedy(wheel_)));
   }
   const double a = centre_distance_;
   const double at_wheel_root =
       internal() ? wheel_.root_radius() - a - pinion_.tip_radius() : a - wheel_.root_radius() - pinion_.tip_radius();
-  const double at_planet_root =
+  const double at_pinion_root =
       internal() ? wheel_.tip_radius() - a - pinion_.root_radius() : a - wheel_.tip_radius() - pinion_.root_radius();
-  if (std::min(at_wheel_root, at_planet_root) <= 0) {
+  if (std::min(at_wheel_root, at_pinion_root) <= 0) {
     throw GeometryError(
         fmt::format("{}: a tip touches a root: clearance {:.4f} mm at the root of the {}, {:.4f} mm at the root of the "
-                    "planet; reduce the tip or root diameters",
-                    name, at_wheel_root / units::mm, wheel_word, at_planet_root / units::mm));
+                    "{}; reduce the tip or root diameters",
+                    name, at_wheel_root / units::mm, wheel, at_pinion_root / units::mm, pinion));
   }
 }
 
-// The tip corner of the planet's driving flank, followed in the frame of the ring: where it crosses the ring's tip
+// The tip corner of the pinion's driving flank, followed in the frame of the ring: where it crosses the ring's tip
 // circle the ring's tip corner has to be ahead (no interference), and inside the ring's space it has to stay clear of
 // the fillet.
 void GearPair::check_internal_tips() const {
   const auto name = pair_name(pinion_, wheel_);
   const double a = centre_distance_;
   const double ratio = static_cast<double>(pinion_.teeth()) / wheel_.teeth();
-  // Angles behind / ahead of the line of centres at the pitch contact; the planet's leading flank drives the trailing
+  // Angles behind / ahead of the line of centres at the pitch contact; the pinion's leading flank drives the trailing
   // flank of the ring tooth ahead of it.
   const double working = involute(working_pressure_angle_);
-  const double planet_corner = involute(std::acos(pinion_.base_radius() / pinion_.tip_radius())) - working;
+  const double pinion_corner = involute(std::acos(pinion_.base_radius() / pinion_.tip_radius())) - working;
   const double ring_corner = working - involute(std::acos(wheel_.base_radius() / wheel_.tip_radius()));
   const double tip = pinion_.tip_radius();
   const double crossing = (wheel_.tip_radius() * wheel_.tip_radius() - a * a - tip * tip) / (2 * a * tip);
   if (crossing > -1 && crossing < 1) {
-    const double planet_angle = std::acos(crossing);
-    const double ring_angle = std::atan2(tip * std::sin(planet_angle), a + tip * std::cos(planet_angle));
-    const double ahead = ring_corner + (planet_angle + planet_corner) * ratio - ring_angle;
+    const double pinion_angle = std::acos(crossing);
+    const double ring_angle = std::atan2(tip * std::sin(pinion_angle), a + tip * std::cos(pinion_angle));
+    const double ahead = ring_corner + (pinion_angle + pinion_corner) * ratio - ring_angle;
     if (ahead < 0) {
       throw GeometryError(
-          fmt::format("{}: the tips interfere by {:.4f} mm where the planet's teeth leave the ring (too small a "
-                      "difference of teeth); reduce the planet's tip diameter or enlarge the ring's",
-                      name, -ahead * wheel_.tip_radius() / units::mm));
+          fmt::format("{2}: the tips interfere by {3:.4f} mm where the {0}'s teeth leave the {1} (too small a "
+                      "difference of teeth); reduce the {0}'s tip diameter or enlarge the {1}'s",
+                      names_.pinion, names_.wheel, name, -ahead * wheel_.tip_radius() / units::mm));
     }
   }
 
@@ -235,13 +240,13 @@ void GearPair::check_internal_tips() const {
   const ToothProfile ring(wheel_);
   const double wheel_pitch_radius = wheel_.base_radius() / std::cos(working_pressure_angle_);
   const double half_tooth = wheel_.tooth_half_angle(wheel_pitch_radius);
-  constexpr int samples = 200;  // over the planet's turn inside the ring; the fillet spans some ten of them
+  constexpr int samples = 200;  // over the pinion's turn inside the ring; the fillet spans some ten of them
   for (int i = 0; i <= samples; ++i) {
-    const double planet_angle = pinion_.pitch_angle() * 2 * (2.0 * i / samples - 1);
-    const double radius = std::hypot(a + tip * std::cos(planet_angle), tip * std::sin(planet_angle));
+    const double pinion_angle = pinion_.pitch_angle() * 2 * (2.0 * i / samples - 1);
+    const double radius = std::hypot(a + tip * std::cos(pinion_angle), tip * std::sin(pinion_angle));
     if (radius <= wheel_.form_radius()) continue;
-    const double turned = (planet_angle + planet_corner) * ratio;
-    const double absolute = std::atan2(tip * std::sin(planet_angle), a + tip * std::cos(planet_angle));
+    const double turned = (pinion_angle + pinion_corner) * ratio;
+    const double absolute = std::atan2(tip * std::sin(pinion_angle), a + tip * std::cos(pinion_angle));
     // Angle behind the centre of the ring tooth ahead: mirrored, that is the leading side of tooth 0.
     const double behind = half_tooth + turned - absolute;
     const Eigen::Vector2d corner(radius * std::cos(behind), radius * std::sin(behind));
@@ -251,9 +256,9 @@ void GearPair::check_internal_tips() const {
     const double depth = (corner - fillet.point(t)).dot(Eigen::Vector2d(tangent.y(), -tangent.x()));
     if (t > 0 && t < 1 && depth > 1e-9 * pinion_.parameters().module) {
       throw GeometryError(
-          fmt::format("{}: the planet's tip corner cuts {:.4f} um into the root fillet of the ring; reduce the "
-                      "planet's tip diameter or the ring's root fillet factor",
-                      name, depth / units::um));
+          fmt::format("{2}: the {0}'s tip corner cuts {3:.4f} um into the root fillet of the {1}; reduce the "
+                      "{0}'s tip diameter or the {1}'s root fillet factor",
+                      names_.pinion, names_.wheel, name, depth / units::um));
     }
   }
 }

@@ -1,11 +1,18 @@
 #pragma once
 
+#include <string>
+
 #include "geometry/gear.h"
 
 namespace annulus::geometry {
 
-/// Which gear of a pair drives the other.
-enum class Driver { pinion, wheel };
+/// Which gear of a pair is meant.
+enum class GearRole { pinion, wheel };
+
+/// What messages call the gears of a pair.
+struct PairNames {
+  std::string pinion = "pinion", wheel = "wheel";
+};
 
 /// How far the teeth of a gear reach beyond a face, m.
 struct Overhang {
@@ -19,7 +26,8 @@ struct CommonFace {
   Overhang pinion, wheel;
 };
 
-/// Two gears in mesh at a working centre distance: sun and planet (external), or planet and ring (internal).
+/// Two gears in mesh at a working centre distance: pinion and wheel, or sun and planet (external), or planet and ring
+/// (internal).
 ///
 /// Lengths along the line of action are measured on the *pinion* by its roll length rho = r_b tan(alpha_y), the
 /// distance from the tangent point on its base circle; rho grows from root to tip. Of helical gears they are those of a
@@ -30,10 +38,11 @@ struct CommonFace {
 /// that do not overlap, total contact ratio below 1.
 class GearPair {
  public:
-  /// `wheel` is the sun (external) or the ring (internal). Centre distance in m. In planetary sets the sun drives the
-  /// planet and the planet the ring.
-  GearPair(const Gear& pinion, const Gear& wheel, double centre_distance);
-  GearPair(const Gear& pinion, const Gear& wheel, double centre_distance, Driver driver);
+  /// Centre distance in m.
+  GearPair(const Gear& pinion, const Gear& wheel, double centre_distance, GearRole driver, PairNames names = {});
+  /// A mesh of a planetary set: `wheel` is the sun (external), which drives the planet, or the ring (internal), which
+  /// the planet drives.
+  GearPair(const Gear& planet, const Gear& wheel, double centre_distance);
 
   /// Negative backlash up to this many modules is accepted and reported as it is: profile shifts printed with four
   /// digits and centre distances printed to a hundredth of a millimetre leave that much rounding in a backlash-free
@@ -43,7 +52,7 @@ class GearPair {
   [[nodiscard]] const Gear& pinion() const { return pinion_; }
   [[nodiscard]] const Gear& wheel() const { return wheel_; }
   [[nodiscard]] bool internal() const { return wheel_.kind() == GearKind::internal; }
-  [[nodiscard]] Driver driver() const { return driver_; }
+  [[nodiscard]] GearRole driver() const { return driver_; }
   /// Mesh cycles after the pitch-point contact of two driving flanks at which the back flanks touch there: the tooth
   /// thickness of the driving gear over the pitch. Back flanks of symmetric teeth are the mirror image of the driving
   /// ones and pass their contact the other way: what these have at a phase, those have at this less the phase.
@@ -77,7 +86,8 @@ class GearPair {
   void check_internal_tips() const;
 
   Gear pinion_, wheel_;
-  Driver driver_;
+  GearRole driver_;
+  PairNames names_;
   double centre_distance_, working_pressure_angle_, normal_backlash_;
   double roll_low_ = 0, roll_high_ = 0, roll_pitch_ = 0;
 };

@@ -21,7 +21,7 @@ PairPlaces pair_places(const GearPair& pair) {
 }
 
 double planet_place(const GearPair& sun_mesh, double phi, double lag) {
-  return phi + pair_places(sun_mesh).planet + lag * sun_mesh.pinion().pitch_angle();
+  return phi + pair_places(sun_mesh).pinion + lag * sun_mesh.pinion().pitch_angle();
 }
 
 StagePlaces stage_places(const PlanetarySet& set) {

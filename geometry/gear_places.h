@@ -8,11 +8,11 @@
 /// How gears stand so that their teeth mesh: the polar angle of each gear's tooth 0, counter-clockwise from the x axis.
 namespace annulus::geometry {
 
-/// The wheel's axis at the origin, the planet's at the centre distance on the x axis, at mesh phase 0: in the pitch
+/// The wheel's axis at the origin, the pinion's at the centre distance on the x axis, at mesh phase 0: in the pitch
 /// point the driving flanks of PlanetarySet touch, the sun's leading with the planet's leading flank, the planet's
 /// trailing with the ring's leading flank.
 struct PairPlaces {
-  double planet = 0, wheel = 0;  ///< rad
+  double pinion = 0, wheel = 0;  ///< rad
 };
 [[nodiscard]] PairPlaces pair_places(const GearPair& pair);
 
@@ -28,8 +28,8 @@ struct StagePlaces {
 };
 [[nodiscard]] StagePlaces stage_places(const PlanetarySet& set);
 
-/// Where the line of action touches the planet's base circle, and its direction from there, in the frame of
-/// pair_places: contact at the planet's roll length rho lies at tangent + rho along.
+/// Where the line of action touches the pinion's base circle, and its direction from there, in the frame of
+/// pair_places: contact at the pinion's roll length rho lies at tangent + rho along.
 struct ActionLine {
   Eigen::Vector2d tangent = Eigen::Vector2d::Zero();  ///< m
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();   ///< unit vector

@@ -105,9 +105,9 @@ FigureSet mesh_figures(const MeshResult& mesh) {
   if (mesh.contact_ratio > 0) figures.set(name + "_contact_ratio", {mesh.contact_ratio, 0});
   if (const auto factor = mesh.peak("face_load_factor")) figures.set(name + "_face_load_factor", factor->value);
   if (!mesh.model.computed()) return figures;
-  for (const bool planet : {true, false})
+  for (const auto gear : {geometry::GearRole::pinion, geometry::GearRole::wheel})
     for (const auto& [key, title] : stress_names) {
-      const auto& body = mesh.model.body_name(planet);
+      const auto& body = mesh.model.body_name(gear);
       // A body without a free rim has none of its stresses.
       if (const auto stress = mesh.largest_stress(body, key))
         set(figures, fmt::format("{}_{}_{}_Pa", name, body, key), *stress);

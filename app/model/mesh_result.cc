@@ -44,10 +44,10 @@ std::map<std::string, double> facts_of(const MeshModel& model, const fem::Loaded
   }
   if (has_mesh(solved)) {
     facts["worst_scaled_jacobian"] =
-        std::min(solved.planet_sector.worst_scaled_jacobian(), solved.wheel_sector.worst_scaled_jacobian());
+        std::min(solved.pinion_sector.worst_scaled_jacobian(), solved.wheel_sector.worst_scaled_jacobian());
   }
   for (const auto& [body, stress, errors] :
-       {std::tuple{model.planet_body, &fem::LoadedPosition::planet_stress, &solved.planet_stress_error},
+       {std::tuple{model.pinion_body, &fem::LoadedPosition::pinion_stress, &solved.pinion_stress_error},
         {model.wheel_body, &fem::LoadedPosition::wheel_stress, &solved.wheel_stress_error}})
     if (std::any_of(solved.positions.begin(), solved.positions.end(),
                     [m = stress](const fem::LoadedPosition& p) { return (p.*m).has_value(); }))
@@ -272,7 +272,7 @@ namespace {
 PairShares shares_of(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   const auto& pair = model.problem->pair;
   const double pitch = pair.pinion().base_pitch(), nominal = model.problem->loads[model.nominal_load()];
-  const double direction = pair.driver() == geometry::Driver::pinion ? 1 : -1;
+  const double direction = pair.driver() == geometry::GearRole::pinion ? 1 : -1;
   PairShares shares;
   shares.phases = solved.table.phases();
   std::vector<std::map<int, double>> sums(static_cast<std::size_t>(shares.phases));
@@ -338,10 +338,10 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   result.positions.round(keys);
   for (const auto& [name, member] : side_tables) (result.*member).round(keys);
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
-  if (solved.fields.size() == 2) {  // the planet's, then the wheel's
-    const auto& planet = solved.fields.front();
-    result.fields.push_back(deformed_mesh(planet, solved.fields.back(), solved.positions[planet.position],
-                                          model.problem->pair, model.planet_body + " and " + model.wheel_body));
+  if (solved.fields.size() == 2) {  // the pinion's, then the wheel's
+    const auto& pinion = solved.fields.front();
+    result.fields.push_back(deformed_mesh(pinion, solved.fields.back(), solved.positions[pinion.position],
+                                          model.problem->pair, model.pinion_body + " and " + model.wheel_body));
   }
   result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"model", model.fidelity}};
   return result;

@@ -43,13 +43,13 @@ FileSet body_files(const MeshModel& model, const fem::LoadedMeshResult& solved, 
     return folder / names.back();
   };
   for (const auto& [mesh, body] :
-       {std::pair{&solved.planet_sector, model.planet_body}, {&solved.wheel_sector, model.wheel_body}}) {
+       {std::pair{&solved.pinion_sector, model.pinion_body}, {&solved.wheel_sector, model.wheel_body}}) {
     const auto msh = file(body, ".msh"), vtu = file(body, ".vtu"), field_vtu = file(body, "_field.vtu");
     if (mesh->cells.empty()) continue;  // a closed form meshes nothing
     geometry::write_msh(*mesh, msh);
     geometry::write_vtu(*mesh, vtu);
     for (const auto& field : solved.fields)
-      if ((field.body == "planet") == (mesh == &solved.planet_sector))
+      if ((field.body == geometry::GearRole::pinion) == (mesh == &solved.pinion_sector))
         geometry::write_vtu(field.mesh, field_vtu, point_data(field));
   }
   return read_files(folder, names);

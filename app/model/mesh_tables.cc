@@ -66,7 +66,7 @@ std::vector<PositionColumn> position_columns(const MeshModel& model, const fem::
   if (over_face_width(solved))
     list.push_back({"face_load_factor", [](const Position& p) { return p.face_load_factor; }});
   for (const auto& [body, member] :
-       {std::pair{model.planet_body, &Position::planet_stress}, {model.wheel_body, &Position::wheel_stress}}) {
+       {std::pair{model.pinion_body, &Position::pinion_stress}, {model.wheel_body, &Position::wheel_stress}}) {
     const auto has_stress = [m = member](const Position& p) { return (p.*m).has_value(); };
     if (std::none_of(solved.positions.begin(), solved.positions.end(), has_stress)) continue;
     for (const auto& [name, stress] : stress_columns) {
@@ -142,7 +142,7 @@ Csv roller_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
     const double spacing = 2 * std::numbers::pi / patches;
     for (std::size_t i = 0; i < p.rollers.size(); ++i) {
       const double behind = (static_cast<double>(i) + 0.5) * spacing - pitch / 2;
-      const double angle = std::remainder(p.planet_angle + behind, 2 * std::numbers::pi);
+      const double angle = std::remainder(p.pinion_angle + behind, 2 * std::numbers::pi);
       around.emplace_back(side * angle / units::deg, p.rollers[i] / (spacing / units::deg));
     }
     std::sort(around.begin(), around.end());
@@ -187,9 +187,8 @@ Csv stress_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   for (std::size_t c = 0; c < solved.stress_curves.size(); ++c) {
     const auto& curve = solved.stress_curves[c];
     const auto& at = solved.positions.at(curve.position);
-    const bool around = curve.name.ends_with("rim");
-    const auto part = curve.name.substr(curve.name.find(' '));  // of "planet root", "wheel rim"
-    csv.header.emplace_back(fmt::format("curve_{}", c + 1), model.body_name(curve.name.starts_with("planet")) + part);
+    const bool around = curve.along == fem::StressCurve::Along::rim;
+    csv.header.emplace_back(fmt::format("curve_{}", c + 1), model.body_name(curve.body) + (around ? " rim" : " root"));
     for (std::size_t i = 0; i < curve.abscissa.size(); ++i) {
       csv.rows.push_back({static_cast<double>(c + 1), at.mesh_phase, static_cast<double>(at.ring_tooth),
                           at.ring_angle / units::deg, at.load, around ? not_known : curve.abscissa[i] / units::mm,

@@ -5,6 +5,7 @@
 #include "app/model/cost_actual.h"
 #include "app/model/gear_system.h"
 #include "app/model/mesh_figures.h"
+#include "app/scene/input_place.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "dynamics/figures/shaft_results.h"
@@ -23,12 +24,14 @@ void SystemRun::solve_meshes(const RunOptions& options) {
 
 void SystemRun::respond(const RunOptions& options) {
   const auto timer = timers.measure("dynamics");
-  responses.resize(system->run_variants().size());
+  const auto variants = system->run_variants();
+  responses.resize(variants.size());
   for_each_task(responses.size(), options.threads, [&](std::size_t variant) {
     const Stopwatch watch;
-    auto response = system->respond(*this, variant, options);
-    response->seconds = watch.seconds();
-    responses[variant] = std::move(response);
+    const auto& name = variants[variant].folder;
+    about(scene, name.empty() ? "dynamics" : "dynamics of '" + name + "'",
+          [&] { responses[variant] = system->respond(*this, variant, options); });
+    responses[variant]->seconds = watch.seconds();
   });
 }
 

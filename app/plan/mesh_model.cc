@@ -128,16 +128,16 @@ std::string MeshModel::id() const {
   ContentId id;
   id.add("mesh", mesh).add("model", fidelity);
   if (problem) {
-    add_gear(id, "planet", problem->pair.pinion());
+    add_gear(id, "pinion", problem->pair.pinion());
     add_gear(id, "wheel", problem->pair.wheel());
     id.add("centre_distance", problem->pair.centre_distance());
-    id.add("pinion_drives", problem->pair.driver() == geometry::Driver::pinion ? 1.0 : 0.0);
-    for (const auto* material : {&problem->materials.planet, &problem->materials.wheel})
+    id.add("pinion_drives", problem->pair.driver() == geometry::GearRole::pinion ? 1.0 : 0.0);
+    for (const auto* material : {&problem->materials.pinion, &problem->materials.wheel})
       id.add("E", material->youngs_modulus).add("nu", material->poisson_ratio);
-    id.add("face_width", problem->face_width).add("planet_bore", problem->planet_bore_radius);
+    id.add("face_width", problem->face_width).add("pinion_bore", problem->pinion_bore_radius);
     id.add("wheel_support", problem->wheel_support_radius).add("phases", problem->phases);
     id.add("misalignment", problem->misalignment);
-    for (const auto* overhang : {&problem->planet_overhang, &problem->wheel_overhang})
+    for (const auto* overhang : {&problem->pinion_overhang, &problem->wheel_overhang})
       id.add("below", overhang->below).add("above", overhang->above);
     for (const double load : problem->loads) id.add("load", load);
     if (problem->pair.internal()) add_structure(id, problem->structure);
@@ -158,19 +158,19 @@ std::string MeshModel::id() const {
 
 std::string MeshModel::label() const { return ring.empty() ? title : fmt::format("{} of '{}'", title, ring); }
 
-fem::FaceFeatures face_features(const Scene& scene, const GearInput& planet, const std::string& planet_name,
+fem::FaceFeatures face_features(const Scene& scene, const GearInput& pinion, const std::string& pinion_name,
                                 const GearInput& wheel, const std::string& wheel_name, double misalignment,
                                 bool gauges_across) {
   // Less changes the stiffness by less than the plane section's own error.
   constexpr double seen = 0.05;
-  const double apart = std::abs(planet.axial_offset - wheel.axial_offset);
-  const bool beside = apart > seen * narrower_face(scene, planet, wheel);
-  return {scene.stage.helix_angle,     planet_name,  wheel_name, lead_modified(scene, planet),
+  const double apart = std::abs(pinion.axial_offset - wheel.axial_offset);
+  const bool beside = apart > seen * narrower_face(scene, pinion, wheel);
+  return {scene.stage.helix_angle,     pinion_name,  wheel_name, lead_modified(scene, pinion),
           lead_modified(scene, wheel), misalignment, beside,     gauges_across};
 }
 
 std::string solid_reason(const Scene& scene, const GearMesh& mesh) {
-  return fem::solid_reason(mesh.structure, face_features(scene, mesh.planet, mesh.planet_name, mesh.wheel,
+  return fem::solid_reason(mesh.structure, face_features(scene, mesh.pinion, mesh.pinion_name, mesh.wheel,
                                                          mesh.wheel_name, mesh.misalignment, mesh.gauges_across));
 }
 
@@ -179,7 +179,7 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
   model.mesh = mesh.mesh;
   model.title = mesh.title;
   model.ring = mesh.ring;
-  model.planet_body = mesh.planet_name;
+  model.pinion_body = mesh.pinion_name;
   model.wheel_body = mesh.wheel_name;
   if (mesh.input.stiffness != StiffnessShape::computed) {
     set_prescribed(model, mesh.input.stiffness);
@@ -187,13 +187,13 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
   }
   const auto face = mesh.pair.common_face();
   model.problem = {.pair = mesh.pair,
-                   .materials = {material_of(scene, mesh.planet), material_of(scene, mesh.wheel)},
+                   .materials = {material_of(scene, mesh.pinion), material_of(scene, mesh.wheel)},
                    .face_width = face.width,
-                   .planet_bore_radius = mesh.planet.bore_diameter.value_or(0) / 2,
+                   .pinion_bore_radius = mesh.pinion.bore_diameter.value_or(0) / 2,
                    .wheel_support_radius = mesh.wheel_support_diameter.value_or(0) / 2,
                    .structure = mesh.structure,
                    .misalignment = mesh.misalignment,
-                   .planet_overhang = face.pinion,
+                   .pinion_overhang = face.pinion,
                    .wheel_overhang = face.wheel,
                    .name = mesh.mesh,
                    .gauges = mesh.gauges,

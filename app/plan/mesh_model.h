@@ -24,12 +24,12 @@ struct MeshModel;
 
 /// How the stiffness of one mesh is found, and why so: the decision of the planner, carried out by the pipeline.
 struct MeshModel : fem::MeshChoice {
-  std::string mesh{};                                     ///< its name in files, keys and tables: "sun_planet"
-  std::string title{};                                    ///< for people: "sun-planet mesh"
-  std::string ring{};                                     ///< empty for the sun mesh, which all rings share
-  std::string planet_body{"planet"}, wheel_body{"ring"};  ///< names of its bodies: "pinion"; "sun", "wheel"
-  std::string fidelity{};                                 ///< fem::fidelity_name(), or "prescribed" by the scene
-  std::optional<fem::LoadedMeshProblem> problem{};        ///< absent when the stiffness is prescribed
+  std::string mesh{};                                      ///< its name in files, keys and tables: "sun_planet"
+  std::string title{};                                     ///< for people: "sun-planet mesh"
+  std::string ring{};                                      ///< empty for the sun mesh, which all rings share
+  std::string pinion_body{"pinion"}, wheel_body{"wheel"};  ///< names of its bodies: "planet"; "sun", "wheel"
+  std::string fidelity{};                                  ///< fem::fidelity_name(), or "prescribed" by the scene
+  std::optional<fem::LoadedMeshProblem> problem{};         ///< absent when the stiffness is prescribed
 
   [[nodiscard]] bool computed() const { return problem.has_value(); }
   /// Computed with finite elements, and not by formulas alone.
@@ -38,8 +38,10 @@ struct MeshModel : fem::MeshChoice {
   [[nodiscard]] std::size_t nominal_load() const { return problem->loads.size() / 2; }
   /// Identity of all inputs this mesh's results depend on.
   [[nodiscard]] std::string id() const;
-  [[nodiscard]] const std::string& body_name(bool planet) const { return planet ? planet_body : wheel_body; }
-  /// For messages: "sun-planet mesh", "planet mesh of ring 'pinned'".
+  [[nodiscard]] const std::string& body_name(geometry::GearRole gear) const {
+    return gear == geometry::GearRole::pinion ? pinion_body : wheel_body;
+  }
+  /// For messages: "sun-planet mesh", "ring-planet mesh of 'pinned'".
   [[nodiscard]] std::string label() const;
 };
 
@@ -50,9 +52,9 @@ struct GearMesh {
   std::string ring{};  ///< name of the ring, where the wheel is one of several
   const geometry::GearPair& pair;
   const MeshInput& input;
-  const HubGearInput& planet;  ///< in the roles they have in the pair
+  const HubGearInput& pinion;  ///< in the roles they have in the pair
   const GearInput& wheel;
-  std::string planet_name, wheel_name;             ///< for people
+  std::string pinion_name, wheel_name;             ///< for people
   std::optional<double> wheel_support_diameter{};  ///< m, bore of a wheel on a hub, outside of a ring
   fem::RingStructure structure{};                  ///< of a ring
   std::vector<fem::StrainGauge> gauges{};          ///< on a ring
@@ -67,8 +69,8 @@ struct GearMesh {
 /// Why it needs a solid model: what changes along its face width. Empty when nothing does.
 [[nodiscard]] std::string solid_reason(const Scene& scene, const GearMesh& mesh);
 /// The same before there are gears: fem::solid_reason() of these.
-[[nodiscard]] fem::FaceFeatures face_features(const Scene& scene, const GearInput& planet,
-                                              const std::string& planet_name, const GearInput& wheel,
+[[nodiscard]] fem::FaceFeatures face_features(const Scene& scene, const GearInput& pinion,
+                                              const std::string& pinion_name, const GearInput& wheel,
                                               const std::string& wheel_name, double misalignment,
                                               bool gauges_across = false);
 

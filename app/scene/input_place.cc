@@ -57,6 +57,7 @@ void about(const Scene& scene, const std::string& name, const std::function<void
   try {
     action();
   } catch (const InputError& error) {
+    if (std::string(error.what()).starts_with(scene.file.string() + ":")) throw;
     throw InputError(with_place(scene, name + ": " + error.what()));
   }
 }

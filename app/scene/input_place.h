@@ -14,7 +14,8 @@ namespace annulus::app {
 /// The place of one input: "scene.toml:12:1"; without line when the scene does not give it.
 [[nodiscard]] std::string place_text(const Scene& scene, const std::string& key, std::size_t entry = 0);
 
-/// Calls `action`. An InputError of it gets the name of what it is about in front ("bearing"), and its place.
+/// Calls `action`. An InputError of it without a place gets the name of what it is about in front ("bearing"), and its
+/// place.
 void about(const Scene& scene, const std::string& name, const std::function<void()>& action);
 
 /// The message without a place in this scene's file in front.

@@ -148,7 +148,7 @@ PairPatches patches_at(const Csv& csv, const PositionKey& at) {
 
 ColourMap pressure_map(const ShownMesh& shown) {
   ColourMap map{.title = shown.title,
-                .x_label = fmt::format("roll length of the {}, mm", shown.mesh.model.planet_body),
+                .x_label = fmt::format("roll length of the {}, mm", shown.mesh.model.pinion_body),
                 .y_label = "z, mm",
                 .value_label = "pressure, MPa",
                 .height = 330};
@@ -244,6 +244,7 @@ Blocks pressures(const NamedMeshes& meshes) {
 struct StressPlot {
   std::vector<Series> series;
   std::string positions;
+  bool of_pinion = false;  ///< whose rim is its bore
 };
 
 void add_stress(StressPlot& plot, const std::string& name, const MeshResult& mesh, std::size_t curve,
@@ -279,19 +280,21 @@ Blocks stresses(const NamedMeshes& meshes) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const auto& header = meshes[i].second->stress.header;
     for (std::size_t c = 0; c < header.size(); ++c) {
-      add_stress(plots[header[c].second], meshes[i].first, *meshes[i].second, c, i);
+      auto& plot = plots[header[c].second];
+      plot.of_pinion = header[c].second.starts_with(meshes[i].second->model.pinion_body + " ");
+      add_stress(plot, meshes[i].first, *meshes[i].second, c, i);
       if (std::find(names.begin(), names.end(), header[c].second) == names.end()) names.push_back(header[c].second);
     }
   }
   Blocks blocks;
   for (const auto& name : names) {
-    const auto& [series, positions] = plots[name];
+    const auto& [series, positions, of_pinion] = plots[name];
     if (series.empty()) continue;
     const bool rim = name.ends_with("rim");
     const std::string body = name.substr(0, name.find(' '));
-    Plot plot = wide_plot(
-        rim ? "Rim of the " + body + (body == "planet" ? ", bore" : ", outside") : "Tooth root of the " + body,
-        rim ? "angle from the contact, °" : "arc length along the tooth space, mm", "stress, MPa", 340);
+    Plot plot =
+        wide_plot(rim ? "Rim of the " + body + (of_pinion ? ", bore" : ", outside") : "Tooth root of the " + body,
+                  rim ? "angle from the contact, °" : "arc length along the tooth space, mm", "stress, MPa", 340);
     plot.series = series;
     blocks += Pictures{{plot},
                        {},

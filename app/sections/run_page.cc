@@ -144,7 +144,7 @@ Section pictures_section(const NamedMeshes& meshes) {
         Drawing{mesh->picture}, title,
         mesh->model.fidelity.ends_with("solid")
             ? std::string("Orange: fixed faces. Blue: driven flanks.")
-            : fmt::format("Blue: {}. Orange: fixed surface. Circle: pitch point.", mesh->model.planet_body));
+            : fmt::format("Blue: {}. Orange: fixed surface. Circle: pitch point.", mesh->model.pinion_body));
     picture.ring = mesh->model.ring;
   }
   return {"meshes", "Meshes", pictures.list.empty() ? Blocks() : Blocks(pictures)};

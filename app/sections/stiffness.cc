@@ -160,7 +160,7 @@ Plot shares_plot(const std::string& title, const MeshResult& mesh, std::size_t c
     }
   }
   return {.title = title,
-          .x_label = fmt::format("roll length on the {}'s flank, mm", mesh.model.planet_body),
+          .x_label = fmt::format("roll length on the {}'s flank, mm", mesh.model.pinion_body),
           .y_label = "share of the mesh force",
           .y_range = Range{-0.03, 1.05},
           .series = {series}};
@@ -175,7 +175,8 @@ Blocks load_shares(const NamedMeshes& meshes) {
   return heading("Load shares of the tooth pairs") +
          Pictures{plots,
                   {},
-                  "Load share of one tooth pair from the root of the planet to its tip. Deflection brings teeth into "
+                  "Load share of one tooth pair from the root to the tip of the gear that the axis names. Deflection "
+                  "brings teeth into "
                   "contact early and separates them late. The share then falls to zero outside the theoretical path of "
                   "contact."};
 }

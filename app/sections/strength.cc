@@ -19,12 +19,13 @@ constexpr double MPa = 1e6;
 /// A gear in one of its meshes.
 struct MeshedGear {
   const MeshResult& mesh;
-  bool planet = false;
+  geometry::GearRole which = geometry::GearRole::pinion;
 
+  [[nodiscard]] bool is_pinion() const { return which == geometry::GearRole::pinion; }
   [[nodiscard]] const geometry::GearPair& pair() const { return mesh.model.problem->pair; }
-  [[nodiscard]] const geometry::Gear& gear() const { return planet ? pair().pinion() : pair().wheel(); }
-  [[nodiscard]] const std::string& name() const { return mesh.model.body_name(planet); }
-  [[nodiscard]] bool internal() const { return !planet && pair().internal(); }
+  [[nodiscard]] const geometry::Gear& gear() const { return is_pinion() ? pair().pinion() : pair().wheel(); }
+  [[nodiscard]] const std::string& name() const { return mesh.model.body_name(which); }
+  [[nodiscard]] bool internal() const { return !is_pinion() && pair().internal(); }
   /// N, of one mesh.
   [[nodiscard]] double normal_force() const { return mesh.table.loads()[mesh.nominal]; }
   /// N, at the reference circle.
@@ -34,7 +35,7 @@ struct MeshedGear {
   /// m, between the root and a free rim or a bore.
   [[nodiscard]] double rim() const {
     const auto& problem = *mesh.model.problem;
-    const double other = planet ? problem.planet_bore_radius : problem.wheel_support_radius;
+    const double other = is_pinion() ? problem.pinion_bore_radius : problem.wheel_support_radius;
     return std::abs(gear().root_radius() - other);
   }
 };
@@ -93,10 +94,10 @@ Blocks stresses_by_load(const NamedMeshes& meshes) {
   Blocks blocks;
   for (const auto& [name, mesh] : meshes) {
     if (!mesh->model.computed() || mesh->positions.rows.empty() || mesh->table.loads().size() < 2) continue;
-    const auto &planet = mesh->model.planet_body, &wheel = mesh->model.wheel_body;
+    const auto &pinion = mesh->model.pinion_body, &wheel = mesh->model.wheel_body;
     PageTable table{.head = {"load, kN"}};
     std::vector<std::string> columns;
-    for (const auto& [body, kind, words] : {std::tuple{planet, "root_tension", "root, tension"},
+    for (const auto& [body, kind, words] : {std::tuple{pinion, "root_tension", "root, tension"},
                                             {wheel, "root_tension", "root, tension"},
                                             {wheel, "rim_von_mises", "rim, von Mises"}}) {
       const auto stress = fmt::format("{}_{}", body, kind);
@@ -126,15 +127,15 @@ Blocks beside_iso_6336(const NamedMeshes& meshes) {
       flanks{.head = {"mesh", "largest pressure away from tip edges, MPa", phrase("σ{}, MPa", subscript("H0"))}};
   for (const auto& [name, mesh] : meshes) {
     if (!mesh->model.computed() || mesh->positions.rows.empty()) continue;
-    for (const bool planet : {true, false})
-      if (auto row = root_row(name, {*mesh, planet}); !row.empty()) roots.rows.push_back(std::move(row));
+    for (const auto gear : {geometry::GearRole::pinion, geometry::GearRole::wheel})
+      if (auto row = root_row(name, {*mesh, gear}); !row.empty()) roots.rows.push_back(std::move(row));
     const auto& problem = *mesh->model.problem;
     if (const double pressure = largest_pressure(*mesh);
         std::isfinite(pressure) && problem.pair.pinion().helix_angle() == 0)
-      flanks.rows.push_back(
-          {name, in_MPa(pressure),
-           in_MPa(geometry::nominal_flank_pressure(problem.pair, MeshedGear{*mesh, true}.tangential_force(),
-                                                   problem.materials.contact_modulus()))});
+      flanks.rows.push_back({name, in_MPa(pressure),
+                             in_MPa(geometry::nominal_flank_pressure(
+                                 problem.pair, MeshedGear{*mesh, geometry::GearRole::pinion}.tangential_force(),
+                                 problem.materials.contact_modulus()))});
   }
   if (roots.rows.empty() && flanks.rows.empty()) return {};
   Blocks blocks = heading("Beside ISO 6336");

@@ -26,8 +26,8 @@ ContactPath path_of(const geometry::GearPair& pair) {
   const double below = (pair.roll_length_pitch() - pair.roll_length_low()) / pitch,
                above = (pair.roll_length_high() - pair.roll_length_pitch()) / pitch;
   const double lines = pair.common_face().width * std::abs(std::tan(pair.pinion().base_helix_angle())) / pitch;
-  return pair.driver() == geometry::Driver::pinion ? ContactPath{-below, above, lines}
-                                                   : ContactPath{-above, below, lines};
+  return pair.driver() == geometry::GearRole::pinion ? ContactPath{-below, above, lines}
+                                                     : ContactPath{-above, below, lines};
 }
 
 /// Part of the path on which a pair touches whose middle is at `middle`.

@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "core/log.h"
+#include "dynamics/modes/growth.h"
 #include "dynamics/modes/modes.h"
 #include "dynamics/steady_state/integration_cost.h"
 #include "dynamics/steady_state/periodic_solution.h"
@@ -111,6 +112,9 @@ class SteadyStateFinder {
       periodic_ = find_periodic_solution(system_, problem_, response_.window_cycles, options_);
       response_.periodic = periodic_.report;
     }
+    // Where no multiplier has judged the motion, time integration may end before it departs.
+    const bool judged = periodic_.status == PeriodicStatus::found && periodic_.report->largest_multiplier;
+    if (!judged && system_.has_fixed_directions()) refuse_growth(system_, problem_.mesh_frequency);
     if (periodic_.status != PeriodicStatus::found)
       return {searchable() ? &SteadyStateFinder::search : &SteadyStateFinder::integrate_prescribed};
     return {wants_confirmation() ? &SteadyStateFinder::confirm : &SteadyStateFinder::accept};

@@ -182,6 +182,12 @@ class SundialsStepper : public Stepper {
   virtual void remember() {}
 
   void check(int flag, double t) const {
+    constexpr int too_much_accuracy = -2;  // in CVODE and ARKODE
+    if (flag == too_much_accuracy)
+      throw SolverError(fmt::format(
+          "time integration failed at t = {:.9g} s: rounding of the state exceeds its tolerance. The motion "
+          "grows without bound, or the tolerance is too tight",
+          t));
     if (flag < 0)
       throw SolverError(
           fmt::format("time integration failed at t = {:.9g} s: {} (status {}); loosen or tighten the "

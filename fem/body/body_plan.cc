@@ -21,16 +21,16 @@ double axial_force(const geometry::ToothProfile& profile, geometry::Boundary fla
 
 }  // namespace
 
-BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfile& profile, Role role,
+BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfile& profile, geometry::GearRole role,
                    geometry::Boundary flank, int degree, Dimension dimension, const SolvedFace& face)
     : profile_(profile),
       face_(face),
-      overhang_(role == Role::wheel ? problem.wheel_overhang : problem.planet_overhang),
+      overhang_(role == geometry::GearRole::wheel ? problem.wheel_overhang : problem.pinion_overhang),
       solid_(dimension == Dimension::solid) {
-  const bool wheel = role == Role::wheel;
+  const bool wheel = role == geometry::GearRole::wheel;
   const RingStructure structure = wheel ? problem.structure : RingStructure{};
   const double outside = problem.wheel_support_radius;
-  rim_.support_radius = wheel ? outside : problem.planet_bore_radius;
+  rim_.support_radius = wheel ? outside : problem.pinion_bore_radius;
   model_.degree = degree;
   model_.flank = flank;
   model_.symmetric_end = face.half;

@@ -12,12 +12,11 @@ namespace annulus::fem {
 /// and its width; the teeth may reach beyond it.
 class BodyPlan {
  public:
-  enum class Role { planet, wheel };
   enum class Dimension { plane, solid };
   /// A wheel has the structure of the problem. The profile is referred to. Throws InputError when the structure needs a
   /// solid body and this one is plane.
-  BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfile& profile, Role role, geometry::Boundary flank,
-           int degree, Dimension dimension, const SolvedFace& face);
+  BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfile& profile, geometry::GearRole role,
+           geometry::Boundary flank, int degree, Dimension dimension, const SolvedFace& face);
 
   /// Plane section alone, whatever the body.
   [[nodiscard]] geometry::Mesh section(const geometry::SectorResolution& resolution) const;

@@ -35,7 +35,7 @@ struct StressLine {
 struct GearBody {
   int teeth = 0;
   double pitch_angle = 0;
-  TraceBasis flank;  ///< over the planet's or wheel's own roll length
+  TraceBasis flank;  ///< over the pinion's or wheel's own roll length
   TraceBasis axial;  ///< over z; empty in the plane
   std::vector<Port> ports;
   std::vector<Eigen::Vector3d> port_points;

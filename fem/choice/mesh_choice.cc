@@ -76,7 +76,7 @@ std::string solid_reason(const RingStructure& structure, const FaceFeatures& fea
   constexpr const char* lead = "the lead of the {} is modified, so the load varies along the face width";
   add(features.helix_angle != 0, "helical teeth enter the contact progressively along the face width");
   add(features.wheel_lead_modified, fmt::format(lead, features.wheel_name));
-  add(features.planet_lead_modified, fmt::format(lead, features.planet_name));
+  add(features.pinion_lead_modified, fmt::format(lead, features.pinion_name));
   add(features.misalignment != 0, "the flanks are misaligned, so the load varies along the face width");
   add(features.beside, "the middles of the faces are apart, so the load varies along the face width");
   add(features.gauges_across, "strain gauges stand at places along the face width, or measure along the axis");

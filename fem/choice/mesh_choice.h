@@ -12,8 +12,8 @@ namespace annulus::fem {
 /// What can change along the face width of a gear mesh.
 struct FaceFeatures {
   double helix_angle = 0;  ///< rad
-  std::string planet_name, wheel_name;
-  bool planet_lead_modified = false, wheel_lead_modified = false;
+  std::string pinion_name, wheel_name;
+  bool pinion_lead_modified = false, wheel_lead_modified = false;
   double misalignment = 0;     ///< m
   bool beside = false;         ///< the middles of the faces are apart
   bool gauges_across = false;  ///< strain gauges stand beside the middle of the face, or measure along the axis

@@ -40,7 +40,7 @@ class ClosedFormRun {
         supports_(ring_supports(problem.structure, problem.wheel_support_radius,
                                 problem.face_width + problem.wheel_overhang.total(), problem.pair.wheel().teeth(),
                                 problem.materials.wheel)),
-        planet_(flanks_.pinion(), problem.planet_bore_radius, problem.face_width, problem.materials.planet, {}, rim,
+        pinion_(flanks_.pinion(), problem.pinion_bore_radius, problem.face_width, problem.materials.pinion, {}, rim,
                 neighbours),
         wheel_(flanks_.wheel(), problem.wheel_support_radius, problem.face_width, problem.materials.wheel, supports_,
                rim, neighbours) {}
@@ -51,7 +51,7 @@ class ClosedFormRun {
     const int loads = static_cast<int>(problem_.loads.size()), phases = problem_.phases;
     std::vector<LoadedPosition> positions(static_cast<std::size_t>(cycles * phases + 1) * loads);
     for (int phase = 0; phase <= phases; ++phase) {
-      const ToothContacts contacts = find_contacts(flanks_, planet_, wheel_, problem_.materials, problem_.face_width,
+      const ToothContacts contacts = find_contacts(flanks_, pinion_, wheel_, problem_.materials, problem_.face_width,
                                                    static_cast<double>(phase) / phases);
       for (int load = 0; load < loads; ++load) {
         std::vector<bool> start;  // the supports of the cycle before
@@ -76,13 +76,13 @@ class ClosedFormRun {
   const LoadedMeshProblem& problem_;
   FlankContact flanks_;
   std::vector<RingSupport> supports_;
-  ClosedFormBody planet_, wheel_;
+  ClosedFormBody pinion_, wheel_;
 };
 
 LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int cycle, int load_index,
                                              std::vector<bool>& start) const {
   const double load = problem_.loads[load_index];
-  const auto forces = solve_contacts(flanks_, contacts, planet_, wheel_, supports_, cycle, load, start);
+  const auto forces = solve_contacts(flanks_, contacts, pinion_, wheel_, supports_, cycle, load, start);
   const auto& solution = forces.solution;
   start = solution.active;
 
@@ -106,10 +106,10 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
     unloaded = std::min(unloaded, pair.gap);
     position.pair_share.push_back(force / load);
     position.pair_roll.push_back(pair.roll);
-    // The force is normal to the planet's involute: its lever arm is the base radius.
-    const auto& root = pair.planet_root;
-    moment += force * (root.z() + root.y() * centroid_radius(planet_.tooth().root_radius(),
-                                                             planet_.tooth().root_half_angle(), Spread::uniform));
+    // The force is normal to the pinion's involute: its lever arm is the base radius.
+    const auto& root = pair.pinion_root;
+    moment += force * (root.z() + root.y() * centroid_radius(pinion_.tooth().root_radius(),
+                                                             pinion_.tooth().root_half_angle(), Spread::uniform));
     if (force <= 0) continue;
     const double pressure = pair.line.peak_pressure(forces.lines[i], force);
     if (pressure <= position.max_pressure) continue;

@@ -16,7 +16,7 @@ struct FlankGap {
   };
   double slope = 0, curvature = 0;  ///< rad, 1/m
   double low = 0, high = 0;         ///< m, low <= 0 <= high
-  std::array<Kink, 2> kinks{};      ///< where a tip relief starts, planet and wheel
+  std::array<Kink, 2> kinks{};      ///< where a tip relief starts, pinion and wheel
 };
 
 /// Where two half planes touch along a convex gap, without friction: the solution of the singular integral equation of

@@ -28,9 +28,9 @@ geometry::Gear transverse_section(const geometry::Gear& gear) {
 
 }  // namespace
 
-std::string no_helical_closed_form(const geometry::GearParameters& planet, const geometry::GearParameters& wheel,
+std::string no_helical_closed_form(const geometry::GearParameters& pinion, const geometry::GearParameters& wheel,
                                    double misalignment) {
-  if (geometry::modified(planet) || geometry::modified(wheel))
+  if (geometry::modified(pinion) || geometry::modified(wheel))
     return "flanks with modifications have no closed form here";
   return misalignment != 0 ? "misaligned flanks have no closed form" : "";
 }

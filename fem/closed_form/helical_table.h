@@ -10,7 +10,7 @@
 namespace annulus::fem {
 
 /// Why a helical mesh has no closed form; empty when it has one.
-[[nodiscard]] std::string no_helical_closed_form(const geometry::GearParameters& planet,
+[[nodiscard]] std::string no_helical_closed_form(const geometry::GearParameters& pinion,
                                                  const geometry::GearParameters& wheel, double misalignment);
 
 /// The closed form of the transverse section, its slices staggered along the helix: at one phase they stand at phases

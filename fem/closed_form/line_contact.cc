@@ -38,14 +38,14 @@ std::pair<double, double> edge_part(double k, double depth, double d) {
 
 }  // namespace
 
-LineContact::LineContact(const FlankGap& gap, const Body& planet, const Body& wheel, double tilt,
+LineContact::LineContact(const FlankGap& gap, const Body& pinion, const Body& wheel, double tilt,
                          const MeshMaterials& materials, double width)
     : patch_(gap, tilt, materials.contact_modulus()),
       tilt_(tilt),
       width_(width),
-      planet_(planet),
+      pinion_(pinion),
       wheel_(wheel),
-      planet_wedge_(wedge(planet.corner)),
+      pinion_wedge_(wedge(pinion.corner)),
       wheel_wedge_(wedge(wheel.corner)),
       materials_(materials) {}
 
@@ -54,14 +54,14 @@ double LineContact::peak_pressure(const State& state, double force) const {
 }
 
 LineContact::Increment LineContact::increment(double a, double middle, double middle_slope) const {
-  const double on_planet = local_compliance(materials_.planet), on_wheel = local_compliance(materials_.wheel);
-  const auto planet = half_space(planet_.depth, a, materials_.planet.poisson_ratio),
+  const double on_pinion = local_compliance(materials_.pinion), on_wheel = local_compliance(materials_.wheel);
+  const auto pinion = half_space(pinion_.depth, a, materials_.pinion.poisson_ratio),
              wheel = half_space(wheel_.depth, a, materials_.wheel.poisson_ratio);
-  Increment sum{on_planet * planet.first + on_wheel * wheel.first,
-                (on_planet * planet.second + on_wheel * wheel.second) / a};
-  if (std::isfinite(planet_.edge)) {
-    const auto [value, slope] = edge_part(planet_wedge_, planet_.depth, planet_.edge - middle);
-    sum.value += on_planet * value, sum.slope -= on_planet * slope * middle_slope;
+  Increment sum{on_pinion * pinion.first + on_wheel * wheel.first,
+                (on_pinion * pinion.second + on_wheel * wheel.second) / a};
+  if (std::isfinite(pinion_.edge)) {
+    const auto [value, slope] = edge_part(pinion_wedge_, pinion_.depth, pinion_.edge - middle);
+    sum.value += on_pinion * value, sum.slope -= on_pinion * slope * middle_slope;
   }
   if (std::isfinite(wheel_.edge)) {
     const auto [value, slope] = edge_part(wheel_wedge_, wheel_.depth, wheel_.edge + middle);
@@ -78,7 +78,7 @@ LineContact::State LineContact::at(double force) const {
   State state;
   state.half_width = a;
   state.middle = patch.middle;
-  const double to_edge = patch.cut > 0 ? planet_.edge - patch.middle : wheel_.edge + patch.middle;
+  const double to_edge = patch.cut > 0 ? pinion_.edge - patch.middle : wheel_.edge + patch.middle;
   state.at_tip_edge = patch.cut != 0 && to_edge < a * (1 + 1e-6);
   const double last = increment(a, patch.middle, 0).value + 2 * tilt_ * patch.middle - moved * a * a;
   state.compliance = last / width_;

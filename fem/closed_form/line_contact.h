@@ -47,9 +47,9 @@ class LineContact {
     double edge = std::numeric_limits<double>::infinity();  ///< m, from x = 0 to the tip edge; infinite: none
     double corner = M_PI;                                   ///< rad, angle of the material there
   };
-  /// `gap` of the flanks, with the tip edge of the planet at x > 0 and that of the wheel at x < 0. `tilt`: half of how
+  /// `gap` of the flanks, with the tip edge of the pinion at x > 0 and that of the wheel at x < 0. `tilt`: half of how
   /// the compliance of both teeth grows with x, rad per N/m of line load. `width` of the contact in m.
-  LineContact(const FlankGap& gap, const Body& planet, const Body& wheel, double tilt, const MeshMaterials& materials,
+  LineContact(const FlankGap& gap, const Body& pinion, const Body& wheel, double tilt, const MeshMaterials& materials,
               double width);
 
   struct State {
@@ -71,8 +71,8 @@ class LineContact {
 
   ContactPatch patch_;
   double tilt_, width_;
-  Body planet_, wheel_;
-  double planet_wedge_, wheel_wedge_;  // k
+  Body pinion_, wheel_;
+  double pinion_wedge_, wheel_wedge_;  // k
   MeshMaterials materials_;
 };
 

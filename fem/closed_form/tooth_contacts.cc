@@ -49,19 +49,19 @@ Modification modification(const geometry::ToothProfile& profile, double roll) {
 }
 
 /// The gap round a pair of opposite points: its slope is the difference of the normals of two involutes.
-FlankGap gap_around(const FlankContact& flanks, double planet_roll, double wheel_roll, double roll,
+FlankGap gap_around(const FlankContact& flanks, double pinion_roll, double wheel_roll, double roll,
                     const FlankContact::Interval& domain) {
-  const auto &planet = flanks.pinion(), &wheel = flanks.wheel();
-  const double sense = flanks.pair().internal() ? 1 : -1;  // of the wheel's roll length along the planet's flank
-  const auto on_planet = modification(planet, planet_roll), on_wheel = modification(wheel, wheel_roll);
+  const auto &pinion = flanks.pinion(), &wheel = flanks.wheel();
+  const double sense = flanks.pair().internal() ? 1 : -1;  // of the wheel's roll length along the pinion's flank
+  const auto on_pinion = modification(pinion, pinion_roll), on_wheel = modification(wheel, wheel_roll);
   FlankGap gap;
-  gap.slope = (planet_roll - roll) / planet.gear().base_radius() -
-              (wheel_roll - flanks.pair().wheel_roll_length(roll)) / wheel.gear().base_radius() + on_planet.slope +
+  gap.slope = (pinion_roll - roll) / pinion.gear().base_radius() -
+              (wheel_roll - flanks.pair().wheel_roll_length(roll)) / wheel.gear().base_radius() + on_pinion.slope +
               sense * on_wheel.slope;
-  gap.curvature = 1 / planet_roll - sense / wheel_roll + on_planet.curvature + on_wheel.curvature;
-  gap.low = arc(planet, domain.low) - arc(planet, planet_roll);
-  gap.high = arc(planet, domain.high) - arc(planet, planet_roll);
-  gap.kinks = {on_planet.relief, {sense * on_wheel.relief.place, on_wheel.relief.jump}};
+  gap.curvature = 1 / pinion_roll - sense / wheel_roll + on_pinion.curvature + on_wheel.curvature;
+  gap.low = arc(pinion, domain.low) - arc(pinion, pinion_roll);
+  gap.high = arc(pinion, domain.high) - arc(pinion, pinion_roll);
+  gap.kinks = {on_pinion.relief, {sense * on_wheel.relief.place, on_wheel.relief.jump}};
   gap.slope -= on_wheel.relief.jump;  // the wheel's relief is at lower x: it ends at its kink
   return gap;
 }
@@ -72,38 +72,38 @@ double tip_corner(const geometry::ToothProfile& profile) {
 }
 
 /// The flanks of a pair where they are nearest, and what a unit force does to the roots there.
-FlanksApart nearest_flanks(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
+FlanksApart nearest_flanks(const FlankContact& flanks, const ClosedFormBody& pinion, const ClosedFormBody& wheel,
                            int index, double roll) {
   const double nearest = flanks.nearest_roll(roll, flanks.domain(roll));
   const auto match = flanks.match(nearest, roll);
-  const auto &on_planet = planet.tooth().load(nearest).root, &on_wheel = wheel.tooth().load(match.wheel_roll).root;
-  return {index, match.gap, on_planet, flanks.pair().internal() ? mirrored_root(on_wheel) : on_wheel};
+  const auto &on_pinion = pinion.tooth().load(nearest).root, &on_wheel = wheel.tooth().load(match.wheel_roll).root;
+  return {index, match.gap, on_pinion, flanks.pair().internal() ? mirrored_root(on_wheel) : on_wheel};
 }
 
 /// The nearest flanks before and behind the pairs of the contacts that still face each other.
-void add_flanks_beyond(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
+void add_flanks_beyond(const FlankContact& flanks, const ClosedFormBody& pinion, const ClosedFormBody& wheel,
                        const std::vector<std::pair<int, double>>& pairs, ToothContacts& contacts) {
   const double pitch = flanks.pair().pinion().base_pitch();
   for (const auto& [index, roll] : {std::pair(pairs.front().first - 1, pairs.front().second - pitch),
                                     std::pair(pairs.back().first + 1, pairs.back().second + pitch)})
-    if (!flanks.domain(roll).empty()) contacts.apart.push_back(nearest_flanks(flanks, planet, wheel, index, roll));
+    if (!flanks.domain(roll).empty()) contacts.apart.push_back(nearest_flanks(flanks, pinion, wheel, index, roll));
 }
 
-/// Adds the pair to the contacts. Behind the path of contact the tip of a planet may pass that of a ring, against which
+/// Adds the pair to the contacts. Behind the path of contact the tip of a pinion may pass that of a ring, against which
 /// it is the flatter one: the gap is not convex there, and only its distance is used.
-void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
+void add_contact(const FlankContact& flanks, const ClosedFormBody& pinion, const ClosedFormBody& wheel,
                  const MeshMaterials& materials, double width, int index, double roll, ToothContacts& contacts) {
   const auto& pair = flanks.pair();
   const auto domain = flanks.domain(roll);
   const double nearest = flanks.nearest_roll(roll, domain);
   const auto match = flanks.match(nearest, roll);
-  const auto on_planet = planet.tooth().load(nearest), on_wheel = wheel.tooth().load(match.wheel_roll);
+  const auto on_pinion = pinion.tooth().load(nearest), on_wheel = wheel.tooth().load(match.wheel_roll);
   const FlankGap gap = gap_around(flanks, nearest, match.wheel_roll, roll, domain);
   if (!(gap.curvature > 0)) {
-    contacts.apart.push_back(nearest_flanks(flanks, planet, wheel, index, roll));
+    contacts.apart.push_back(nearest_flanks(flanks, pinion, wheel, index, roll));
     return;
   }
-  const double planet_edge = distance_to_tip(flanks.pinion(), nearest);
+  const double pinion_edge = distance_to_tip(flanks.pinion(), nearest);
   // The patch and the edge have to agree where the wheel's tip cuts the gap.
   const bool wheel_tip_cuts = domain.low > flanks.pinion().roll_length_form();
   const double wheel_edge =
@@ -116,24 +116,24 @@ void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const
   };
   const auto compliance = [&](double x) {
     const double at = std::sqrt(2 * flanks.pinion().gear().base_radius() * (arc(flanks.pinion(), nearest) + x));
-    const auto p = planet.tooth().load(at), w = wheel.tooth().load(flanks.match(at, roll).wheel_roll);
-    return p.root.dot(planet.foundation_compliance() * p.root) + w.root.dot(wheel.foundation_compliance() * w.root) +
-           (p.compliance + w.compliance) / width + local(materials.planet, p.depth) + local(materials.wheel, w.depth);
+    const auto p = pinion.tooth().load(at), w = wheel.tooth().load(flanks.match(at, roll).wheel_roll);
+    return p.root.dot(pinion.foundation_compliance() * p.root) + w.root.dot(wheel.foundation_compliance() * w.root) +
+           (p.compliance + w.compliance) / width + local(materials.pinion, p.depth) + local(materials.wheel, w.depth);
   };
   const double step = 0.02 * pair.pinion().parameters().module;
   const double from = std::max(gap.low, -step), to = std::min(gap.high, step);
   // Flanks that hardly overlap have no room to tilt.
   const double tilt = to - from > step / 2 ? (compliance(to) - compliance(from)) / (to - from) / 2 * width : 0;
   contacts.pairs.push_back(
-      {index, roll, nearest, match.gap, on_planet.root, pair.internal() ? mirrored_root(on_wheel.root) : on_wheel.root,
-       (on_planet.compliance + on_wheel.compliance) / width,
-       LineContact(gap, {on_planet.depth, planet_edge, tip_corner(flanks.pinion())},
+      {index, roll, nearest, match.gap, on_pinion.root, pair.internal() ? mirrored_root(on_wheel.root) : on_wheel.root,
+       (on_pinion.compliance + on_wheel.compliance) / width,
+       LineContact(gap, {on_pinion.depth, pinion_edge, tip_corner(flanks.pinion())},
                    {on_wheel.depth, wheel_edge, tip_corner(flanks.wheel())}, tilt, materials, width)});
 }
 
 }  // namespace
 
-ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
+ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& pinion, const ClosedFormBody& wheel,
                             const MeshMaterials& materials, double width, double phase) {
   ToothContacts contacts;
   contacts.phase = phase;
@@ -141,10 +141,10 @@ ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& pl
   for (const auto& [index, roll] : pairs) {
     const auto domain = flanks.domain(roll);
     if (domain.high - domain.low < shortest_overlap * flanks.pair().pinion().base_pitch()) continue;
-    add_contact(flanks, planet, wheel, materials, width, index, roll, contacts);
+    add_contact(flanks, pinion, wheel, materials, width, index, roll, contacts);
   }
   require(!contacts.pairs.empty(), "no tooth pair faces another");
-  add_flanks_beyond(flanks, planet, wheel, pairs, contacts);
+  add_flanks_beyond(flanks, pinion, wheel, pairs, contacts);
 
   const auto n = static_cast<Eigen::Index>(contacts.pairs.size());
   Eigen::MatrixXd formed(n, n);
@@ -152,7 +152,7 @@ ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& pl
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto &a = contacts.pairs[i], &b = contacts.pairs[j];
       const int wheel_offset = wheel_tooth(flanks, a.index, 0) - wheel_tooth(flanks, b.index, 0);
-      formed(i, j) = a.planet_root.dot(planet.root_compliance(a.index - b.index) * b.planet_root) +
+      formed(i, j) = a.pinion_root.dot(pinion.root_compliance(a.index - b.index) * b.pinion_root) +
                      a.wheel_root.dot(wheel.root_compliance(wheel_offset) * b.wheel_root) +
                      (i == j ? a.cantilevers : 0);
     }
@@ -166,7 +166,7 @@ namespace {
 /// m, gap that a position leaves between flanks outside the contacts; deflections of the roots alone, for nothing
 /// presses on these flanks.
 double gap_left(const FlankContact& flanks, const ToothContacts& contacts, const FlanksApart& apart,
-                const ClosedFormBody& planet, const ClosedFormBody& wheel, int cycle,
+                const ClosedFormBody& pinion, const ClosedFormBody& wheel, int cycle,
                 const ComplementaritySolution& solution) {
   const auto pairs = static_cast<Eigen::Index>(contacts.pairs.size()), held = solution.force.size() - pairs;
   double gap = apart.gap - solution.rigid[0];
@@ -174,7 +174,7 @@ double gap_left(const FlankContact& flanks, const ToothContacts& contacts, const
     const auto& pair = contacts.pairs[i];
     const int offset = wheel_tooth(flanks, apart.index, 0) - wheel_tooth(flanks, pair.index, 0);
     gap += solution.force[i] *
-           (apart.planet_root.dot(planet.root_compliance(apart.index - pair.index) * pair.planet_root) +
+           (apart.pinion_root.dot(pinion.root_compliance(apart.index - pair.index) * pair.pinion_root) +
             apart.wheel_root.dot(wheel.root_compliance(offset) * pair.wheel_root));
   }
   if (held == 0) return gap;
@@ -188,7 +188,7 @@ double gap_left(const FlankContact& flanks, const ToothContacts& contacts, const
 }  // namespace
 
 ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothContacts& contacts,
-                                    const ClosedFormBody& planet, const ClosedFormBody& wheel,
+                                    const ClosedFormBody& pinion, const ClosedFormBody& wheel,
                                     const std::vector<RingSupport>& supports, int cycle, double load,
                                     const std::vector<bool>& start) {
   const auto pairs = static_cast<Eigen::Index>(contacts.pairs.size());
@@ -242,7 +242,7 @@ ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothConta
     force = next;
     if (change > wanted) continue;
     for (const auto& apart : contacts.apart)
-      if (gap_left(flanks, contacts, apart, planet, wheel, cycle, result.solution) <= 0)
+      if (gap_left(flanks, contacts, apart, pinion, wheel, cycle, result.solution) <= 0)
         throw SolverError(
             fmt::format("mesh phase {:.4f}: under {:.4g} N two tips or flanks with a gap of {:.3g} mm touch beyond the "
                         "path of contact. Formulas do not cover this: use model = \"plane\"",

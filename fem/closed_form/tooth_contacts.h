@@ -12,10 +12,10 @@ namespace annulus::fem {
 
 /// One tooth pair that may touch, as one unknown force.
 struct ToothContact {
-  int index = 0;                            ///< number of the pair, and of the planet's tooth in cycle 0
-  double roll = 0;                          ///< m, planet roll length of the theoretical contact
+  int index = 0;                            ///< number of the pair, and of the pinion's tooth in cycle 0
+  double roll = 0;                          ///< m, pinion roll length of the theoretical contact
   double nearest_roll = 0, gap = 0;         ///< m, where the flanks are nearest, modifications included
-  Eigen::Vector3d planet_root, wheel_root;  ///< root loads of a unit force, each in its own tooth's frame
+  Eigen::Vector3d pinion_root, wheel_root;  ///< root loads of a unit force, each in its own tooth's frame
   double cantilevers = 0;                   ///< m/N, of both teeth
   LineContact line;
 };
@@ -25,7 +25,7 @@ struct ToothContact {
 struct FlanksApart {
   int index = 0;
   double gap = 0;                           ///< m
-  Eigen::Vector3d planet_root, wheel_root;  ///< as of a ToothContact
+  Eigen::Vector3d pinion_root, wheel_root;  ///< as of a ToothContact
 };
 
 /// All tooth pairs of one phase and their compliance but for the line contacts; the same in every mesh cycle and at
@@ -39,7 +39,7 @@ struct ToothContacts {
 };
 
 /// Pairs up to one base pitch before and after the theoretical path, as in the finite-element models.
-[[nodiscard]] ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& planet,
+[[nodiscard]] ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& pinion,
                                           const ClosedFormBody& wheel, const MeshMaterials& materials, double width,
                                           double phase);
 
@@ -54,7 +54,7 @@ struct ToothContactSolution {
 /// to the wheel. Throws SolverError with phase, load and residual, and where the deflections close flanks that formulas
 /// do not bring into contact.
 [[nodiscard]] ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothContacts& contacts,
-                                                  const ClosedFormBody& planet, const ClosedFormBody& wheel,
+                                                  const ClosedFormBody& pinion, const ClosedFormBody& wheel,
                                                   const std::vector<RingSupport>& supports, int cycle, double load,
                                                   const std::vector<bool>& start);
 

@@ -31,14 +31,14 @@ Eigen::VectorXd support_motion(const FloatingUnknowns& body, const Complementari
   return motion;
 }
 
-double planet_angle(const ContactBodies& bodies, const ToothPairs& setup) {
+double pinion_angle(const ContactBodies& bodies, const ToothPairs& setup) {
   const auto& first = setup.pairs.front();
   const auto& flanks = bodies.face.flanks();
-  return flanks.planet_tooth_angle(first.roll) - first.index * flanks.pair().pinion().pitch_angle();
+  return flanks.pinion_tooth_angle(first.roll) - first.index * flanks.pair().pinion().pitch_angle();
 }
 
 Eigen::VectorXd applied_forces(const ContactBodies& bodies, const ToothPairs& setup) {
-  return setup.load * bodies.rollers->partner_forces(planet_angle(bodies, setup));
+  return setup.load * bodies.rollers->partner_forces(pinion_angle(bodies, setup));
 }
 
 Eigen::VectorXd row_forces(const ContactBodies& bodies, const ToothPairs& setup, const FloatingUnknowns& body,
@@ -56,14 +56,14 @@ ContactForces port_forces(const ContactBodies& bodies, const ToothPairs& setup, 
     const auto& p = setup.pairs[i];
     const Eigen::VectorXd force = solution.force.segment(setup.start[i], p.size());
     if ((force.array() == 0).all()) continue;
-    result.planet.push_back({p.index, bodies.planet.port_weights(p.planet) * force});
+    result.pinion.push_back({p.index, bodies.pinion.port_weights(p.pinion) * force});
     result.wheel.push_back(
         {wheel_tooth(bodies.face.flanks(), p.index, cycle), bodies.wheel.port_weights(p.wheel) * force});
   }
   for (const auto& body : floating_unknowns(bodies, setup.contacts)) {
     const bool wheel = body.row == bodies.supports;
     (wheel ? result.supports : result.rollers) = row_forces(bodies, setup, body, solution);
-    (wheel ? result.rigid : result.planet_rigid) = support_motion(body, solution);
+    (wheel ? result.rigid : result.pinion_rigid) = support_motion(body, solution);
   }
   return result;
 }
@@ -114,15 +114,15 @@ LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup, co
   double compliance = solution.tangent(0, 0);
   const auto floating = floating_unknowns(bodies, setup.contacts);
   if (bodies.rollers != nullptr) {
-    const auto& planet = floating.back();
-    const auto forces = row_forces(bodies, setup, planet, solution);
+    const auto& pinion = floating.back();
+    const auto forces = row_forces(bodies, setup, pinion, solution);
     std::vector<PlanetOnRollers::Change> changes = {{1, 1}, {0, 1}};  // of both meshes, and of the other one alone
     std::vector<double> compliances;
     for (auto& [own, other, row_change] : changes) {
       const auto change = change_with_load(setup, problem, solution, own, other);
       compliances.push_back(change.transmission_error);
       row_change = other * forces / load;  // those applied rise with the load of the other mesh
-      row_change.head(planet.row->unknowns()) = change.force.segment(planet.force, planet.row->unknowns());
+      row_change.head(pinion.row->unknowns()) = change.force.segment(pinion.force, pinion.row->unknowns());
     }
     const auto bearing = bodies.rollers->bearing_motion(load, forces, changes);
     result.entry.lte -= bearing.transmission_error;
@@ -148,18 +148,18 @@ LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup, co
 
   double moment = 0;
   const auto& z = bodies.face.slice_edges();
-  result.line_load.assign(bodies.planet.slices(), 0.0);
+  result.line_load.assign(bodies.pinion.slices(), 0.0);
   Eigen::Index at = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto& p = pairs[i];
     const Eigen::VectorXd force = solution.force.segment(at, p.size());
-    moment -= (bodies.planet.resultants(p.planet, p.index).col(2)).dot(force);
+    moment -= (bodies.pinion.resultants(p.pinion, p.index).col(2)).dot(force);
     result.pair_share.push_back(bodies.face.normal_factor() * force.sum() / load);
     result.pair_roll.push_back(p.roll);
     for (Eigen::Index e = 0; e < p.size(); ++e) {
       if (force[e] <= 0) continue;
       const auto& element = p.elements[e];
-      const int s = p.planet.elements[e].slice;
+      const int s = p.pinion.elements[e].slice;
       const double length = z[s + 1] - z[s], pressure = force[e] / element.area;
       result.line_load[s] += bodies.face.normal_factor() * force[e] / length;
       result.pressure.push_back({static_cast<int>(i), z[s], z[s + 1], element.roll_low, element.roll_high, pressure});

@@ -14,7 +14,7 @@ namespace annulus::fem {
 [[nodiscard]] LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup,
                                       const ComplementarityProblem& problem, const ComplementaritySolution& solution);
 /// Where the unknowns of the floating bodies stand among those of a position, behind the contacts: those of the wheel,
-/// then those of the planet.
+/// then those of the pinion.
 struct FloatingUnknowns {
   const SupportRow* row;
   Eigen::Index force, motion;  ///< the first ones
@@ -26,8 +26,8 @@ struct FloatingUnknowns {
 /// Forces of its row, those that are applied included.
 [[nodiscard]] Eigen::VectorXd row_forces(const ContactBodies& bodies, const ToothPairs& setup,
                                          const FloatingUnknowns& body, const ComplementaritySolution& solution);
-/// Where tooth 0 of the planet stands in the frame of the solve, rad.
-[[nodiscard]] double planet_angle(const ContactBodies& bodies, const ToothPairs& setup);
+/// Where tooth 0 of the pinion stands in the frame of the solve, rad.
+[[nodiscard]] double pinion_angle(const ContactBodies& bodies, const ToothPairs& setup);
 /// Forces that the other mesh of a planet on rollers applies to it, as the last ones of its row, N.
 [[nodiscard]] Eigen::VectorXd applied_forces(const ContactBodies& bodies, const ToothPairs& setup);
 /// Final forces at the ports of both bodies and at the supports, during mesh cycle `cycle`.

@@ -10,7 +10,7 @@ namespace annulus::fem {
 struct FaceGaps {
   double misalignment = 0;  ///< as in LoadedMeshProblem
   /// From the low end of each gear's teeth, at which its lead modifications begin, to that of the common face.
-  double planet_below = 0, wheel_below = 0;
+  double pinion_below = 0, wheel_below = 0;
 };
 
 /// The face width of a gear mesh in slices, with the gaps between unloaded flanks that vary along it.
@@ -32,13 +32,13 @@ class ContactFace {
   }
   /// m, normal to the flanks: by how much these come nearer to each other within a slice, at these rolls, than the
   /// means of the measured flanks and smallest_lead_gap() say; negative where both do not add up.
-  [[nodiscard]] double measured_dip(int slice, double planet_roll, double wheel_roll) const;
+  [[nodiscard]] double measured_dip(int slice, double pinion_roll, double wheel_roll) const;
   /// Whether flanks face each other in every slice in another way.
   [[nodiscard]] bool varies() const { return helical() || !measured_.empty(); }
   /// cos(base helix angle): normal approach of the flanks per transmission error.
   [[nodiscard]] double normal_factor() const { return normal_factor_; }
   [[nodiscard]] bool helical() const { return roll_per_z_ != 0; }
-  /// m, planet roll at the contact in the middle of a slice beyond that in the middle of the face.
+  /// m, pinion roll at the contact in the middle of a slice beyond that in the middle of the face.
   [[nodiscard]] double slice_roll(int slice) const;
 
  private:
@@ -51,7 +51,7 @@ class ContactFace {
   double roll_per_z_;
 };
 
-/// Change of the planet's roll at the contact along the face width: tan(base helix angle), signed.
+/// Change of the pinion's roll at the contact along the face width: tan(base helix angle), signed.
 [[nodiscard]] double roll_per_z(const FlankContact& flanks);
 
 }  // namespace annulus::fem

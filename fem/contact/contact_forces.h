@@ -13,12 +13,12 @@ struct ToothForces {
 
 /// All forces of one position.
 struct ContactForces {
-  std::vector<ToothForces> planet, wheel;
+  std::vector<ToothForces> pinion, wheel;
   Eigen::VectorXd supports;  ///< of the wheel's support row; empty without
   /// Motion of a floating ring beyond its elastic displacement: x, y (m), rotation about z (rad); of a whole solid one
   /// also about x and y. Empty without supports.
   Eigen::VectorXd rigid;
-  Eigen::VectorXd rollers, planet_rigid;  ///< the same of a planet on rollers, forces of its other mesh included
+  Eigen::VectorXd rollers, pinion_rigid;  ///< the same of a planet on rollers, forces of its other mesh included
 };
 
 }  // namespace annulus::fem

@@ -12,12 +12,12 @@
 
 namespace annulus::fem {
 
-ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
+ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& pinion, const ContactBody& wheel,
                              const SupportRow* supports, const MeshMaterials& materials,
                              std::vector<double> slice_edges, const ContactOptions& options,
                              const PlanetOnRollers* rollers)
     : face_(flanks, std::move(slice_edges), options.gaps),
-      bodies_{face_, planet, wheel, supports, rollers},
+      bodies_{face_, pinion, wheel, supports, rollers},
       range_(options.pairs ? *options.pairs : possible_contacts(flanks)),
       materials_(materials),
       window_(options.window),
@@ -51,15 +51,15 @@ std::shared_ptr<const ToothPairs> ContactSystem::prepare(double phase, double lo
     for (std::size_t j = 0; j <= i; ++j) {
       const auto& o = pairs[j];
       const int other = wheel_tooth(face_.flanks(), o.index, 0);
-      const Eigen::MatrixXd block = bodies_.planet.compliance(p.planet, p.index, o.planet, o.index) +
+      const Eigen::MatrixXd block = bodies_.pinion.compliance(p.pinion, p.index, o.pinion, o.index) +
                                     bodies_.wheel.compliance(p.wheel, tooth, o.wheel, other);
       // Where a body has a compliance for either direction, both are formed: what they differ by measures reciprocity
       // (Betti). Of a pair with itself they are the same.
       Eigen::MatrixXd opposite = block;
-      if (i != j && bodies_.planet.same_both_ways() && bodies_.wheel.same_both_ways())
+      if (i != j && bodies_.pinion.same_both_ways() && bodies_.wheel.same_both_ways())
         opposite = block.transpose();
       else if (i != j)
-        opposite = bodies_.planet.compliance(o.planet, o.index, p.planet, p.index) +
+        opposite = bodies_.pinion.compliance(o.pinion, o.index, p.pinion, p.index) +
                    bodies_.wheel.compliance(o.wheel, other, p.wheel, tooth);
       result->asymmetry = std::max(result->asymmetry,
                                    (block - opposite.transpose()).cwiseAbs().maxCoeff() / block.cwiseAbs().maxCoeff());
@@ -68,7 +68,7 @@ std::shared_ptr<const ToothPairs> ContactSystem::prepare(double phase, double lo
       compliance.block(start[j], start[i], block.cols(), size) = mean.transpose();
     }
     compliance.block(start[i], start[i], size, size) +=
-        bodies_.planet.near_field(p.planet) + bodies_.wheel.near_field(p.wheel);
+        bodies_.pinion.near_field(p.pinion) + bodies_.wheel.near_field(p.wheel);
   }
   return result;
 }
@@ -113,14 +113,14 @@ void ContactSystem::add_floating(const ToothPairs& setup, int cycle, const Float
                                  ComplementarityProblem& problem) const {
   const SupportRow& row = *body.row;
   const bool of_wheel = body.row == bodies_.supports;
-  const ContactBody& gear = of_wheel ? bodies_.wheel : bodies_.planet;
+  const ContactBody& gear = of_wheel ? bodies_.wheel : bodies_.pinion;
   const Eigen::Index forces = row.unknowns(), motions = row.rigid_motions(), applied = row.size() - forces;
   const Eigen::VectorXd given = applied > 0 ? applied_forces(bodies_, setup) : Eigen::VectorXd();
   if (applied > 0) problem.applied_gap = Eigen::VectorXd::Zero(problem.gap.size());
   problem.compliance.block(body.force, body.force, forces, forces) = row.compliance();
   for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
     const auto& p = setup.pairs[i];
-    const FlankPatch& patch = of_wheel ? p.wheel : p.planet;
+    const FlankPatch& patch = of_wheel ? p.wheel : p.pinion;
     const int tooth = of_wheel ? wheel_tooth(face_.flanks(), p.index, cycle) : p.index;
     const Eigen::MatrixXd weights = gear.port_weights(patch), coupling = row.at_ports(tooth, weights);
     const Eigen::Index at = setup.start[i], size = coupling.rows();
@@ -225,7 +225,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
     position.mesh_phase = phase;
     position.ring_tooth = cycle;
     position.reciprocity_relative = setup.asymmetry;
-    position.planet_angle = planet_angle(bodies_, setup);
+    position.pinion_angle = pinion_angle(bodies_, setup);
     position.ring_angle = pitch_point_angle(face_.flanks(), setup.pairs.front().index, setup.pairs.front().roll, cycle);
     if (half_face_) unfold(position, 2 * face_.slice_edges().back());
     return position;

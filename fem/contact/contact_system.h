@@ -34,7 +34,7 @@ struct ContactOptions : PressureElementOptions {
 class ContactSystem {
  public:
   /// Everything is referred to; `supports` and `rollers` may be null. `slice_edges` as for the bodies.
-  ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
+  ContactSystem(const FlankContact& flanks, const ContactBody& pinion, const ContactBody& wheel,
                 const SupportRow* supports, const MeshMaterials& materials, std::vector<double> slice_edges,
                 const ContactOptions& options, const PlanetOnRollers* rollers = nullptr);
   ContactSystem(const ContactSystem&) = delete;

@@ -39,14 +39,14 @@ FlankContact::FlankContact(const geometry::GearPair& pair)
     : pair_(pair),
       pinion_(pair.pinion()),
       wheel_(pair.wheel()),
-      planet_base_half_angle_(base_half_angle(pair.pinion())),
+      pinion_base_half_angle_(base_half_angle(pair.pinion())),
       wheel_base_half_angle_(base_half_angle(pair.wheel())),
       normal_factor_(std::cos(pair.pinion().base_helix_angle())),
       modified_(profile_modified(pair.pinion()) || profile_modified(pair.wheel())) {}
 
-double FlankContact::planet_tooth_angle(double contact_roll) const {
+double FlankContact::pinion_tooth_angle(double contact_roll) const {
   const double alpha = pair_.working_pressure_angle(), turned = contact_roll / pair_.pinion().base_radius();
-  return (pair_.internal() ? 0.0 : M_PI) + turned - planet_base_half_angle_ - alpha;
+  return (pair_.internal() ? 0.0 : M_PI) + turned - pinion_base_half_angle_ - alpha;
 }
 
 double FlankContact::wheel_tooth_angle(double contact_roll) const {
@@ -55,25 +55,25 @@ double FlankContact::wheel_tooth_angle(double contact_roll) const {
   return turned - alpha + (pair_.internal() ? wheel_base_half_angle_ : -wheel_base_half_angle_);
 }
 
-double FlankContact::guessed_opposite(double planet_roll, double contact_roll) const {
-  // As far from the contact along the flank as on the planet; arcs of involutes are roll^2 / (2 base radius).
+double FlankContact::guessed_opposite(double pinion_roll, double contact_roll) const {
+  // As far from the contact along the flank as on the pinion; arcs of involutes are roll^2 / (2 base radius).
   const double wheel_contact = pair_.wheel_roll_length(contact_roll), sense = pair_.internal() ? 1 : -1;
   const double squared = wheel_contact * wheel_contact + sense * pair_.wheel().base_radius() /
                                                              pair_.pinion().base_radius() *
-                                                             (planet_roll * planet_roll - contact_roll * contact_roll);
-  if (contact_roll <= 0 || wheel_contact <= 0 || squared <= 0) return pair_.wheel_roll_length(planet_roll);
+                                                             (pinion_roll * pinion_roll - contact_roll * contact_roll);
+  if (contact_roll <= 0 || wheel_contact <= 0 || squared <= 0) return pair_.wheel_roll_length(pinion_roll);
   return std::sqrt(squared);
 }
 
-std::pair<double, double> FlankContact::opposite(double planet_roll, double contact_roll) const {
-  const double planet_angle = planet_tooth_angle(contact_roll);
-  const Eigen::Rotation2Dd turn(wheel_tooth_angle(contact_roll) - planet_angle);
-  const Eigen::Vector2d wheel_axis = -(Eigen::Rotation2Dd(-planet_angle) * Eigen::Vector2d(pair_.centre_distance(), 0));
+std::pair<double, double> FlankContact::opposite(double pinion_roll, double contact_roll) const {
+  const double pinion_angle = pinion_tooth_angle(contact_roll);
+  const Eigen::Rotation2Dd turn(wheel_tooth_angle(contact_roll) - pinion_angle);
+  const Eigen::Vector2d wheel_axis = -(Eigen::Rotation2Dd(-pinion_angle) * Eigen::Vector2d(pair_.centre_distance(), 0));
   const double side = pair_.internal() ? -1 : 1;  // trailing flank: the mirror image of the leading one
   const double base = pair_.wheel().base_radius();
-  const auto [point, normal] = pinion_.flank_place(planet_roll);
+  const auto [point, normal] = pinion_.flank_place(pinion_roll);
 
-  /// A point of the wheel's flank, seen from the planet's: distance, and the slope of its part across the normal.
+  /// A point of the wheel's flank, seen from the pinion's: distance, and the slope of its part across the normal.
   struct Seen {
     Eigen::Vector2d distance;
     double across, slope;
@@ -91,13 +91,13 @@ std::pair<double, double> FlankContact::opposite(double planet_roll, double cont
   };
   constexpr double same = 1e-15;  // of the base radius
   // Both normals turn by roll / base radius. While they are less than a right angle from being opposed, the distance
-  // from the planet's normal grows (or falls) with the wheel's roll: that brackets the opposite point, and there is
+  // from the pinion's normal grows (or falls) with the wheel's roll: that brackets the opposite point, and there is
   // one.
   const double opposed =
-      pair_.wheel_roll_length(contact_roll) + (planet_roll - contact_roll) * base / pair_.pinion().base_radius();
+      pair_.wheel_roll_length(contact_roll) + (pinion_roll - contact_roll) * base / pair_.pinion().base_radius();
   double low = std::max(0.0, opposed - 1.5 * base), high = opposed + 1.5 * base;
   if (high <= low) return {0, 0};
-  double roll = std::clamp(guessed_opposite(planet_roll, contact_roll), low, high);
+  double roll = std::clamp(guessed_opposite(pinion_roll, contact_roll), low, high);
   // Mostly the first steps find it, without looking at the ends.
   constexpr int quick_steps = 8;
   for (int step = 0; step < quick_steps && roll > low && roll < high; ++step) {
@@ -121,17 +121,17 @@ std::pair<double, double> FlankContact::opposite(double planet_roll, double cont
   return {roll, seen(roll).distance.dot(normal)};
 }
 
-FlankContact::Match FlankContact::match(double planet_roll, double contact_roll,
+FlankContact::Match FlankContact::match(double pinion_roll, double contact_roll,
                                         const FlankDeviations* measured) const {
-  const auto [roll, gap] = opposite(planet_roll, contact_roll);
+  const auto [roll, gap] = opposite(pinion_roll, contact_roll);
   if (!(roll > 0 && std::isfinite(roll)))
     throw SolverError(
-        fmt::format("no point of the wheel flank lies opposite to the planet flank at the roll length "
+        fmt::format("no point of the wheel flank lies opposite to the pinion flank at the roll length "
                     "{:.6g} mm, the theoretical contact at {:.6g} mm",
-                    1e3 * planet_roll, 1e3 * contact_roll));
-  double removed = pinion_.modification(planet_roll) + wheel_.modification(roll);
+                    1e3 * pinion_roll, 1e3 * contact_roll));
+  double removed = pinion_.modification(pinion_roll) + wheel_.modification(roll);
   if (measured != nullptr)
-    removed += measured->planet.mean(std::hypot(pair_.pinion().base_radius(), planet_roll)) +
+    removed += measured->pinion.mean(std::hypot(pair_.pinion().base_radius(), pinion_roll)) +
                measured->wheel.mean(std::hypot(pair_.wheel().base_radius(), roll));
   // What is removed normal to a helical flank is longer in its transverse section.
   return {roll, gap + removed / normal_factor_};
@@ -207,7 +207,7 @@ double FlankContact::smallest_gap(double contact_roll) const {
 
 int wheel_tooth(const FlankContact& flanks, int index, int cycle) {
   const auto& pair = flanks.pair();
-  const int passed = pair.driver() == geometry::Driver::pinion ? index - cycle : index + cycle;
+  const int passed = pair.driver() == geometry::GearRole::pinion ? index - cycle : index + cycle;
   return pair.internal() ? passed : -passed;
 }
 

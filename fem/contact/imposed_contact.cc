@@ -17,7 +17,7 @@ ImposedContact::ImposedContact(std::shared_ptr<const ToothPairs> pairs, int slic
   for (const auto& pair : pairs_->pairs)
     for (std::size_t e = 0; e < pair.elements.size(); ++e) {
       gap_[at++] = pair.elements[e].gap;
-      slice_.push_back(pair.planet.elements[e].slice);
+      slice_.push_back(pair.pinion.elements[e].slice);
       outermost_.push_back(pair.elements[e].outermost);
     }
 }

@@ -21,25 +21,25 @@ class FlankDeflections {
       if ((force.array() != 0).any()) loaded_.push_back({&p, std::move(force)});
     }
     for (const auto& body : floating_unknowns(bodies, setup.contacts))
-      (body.row == bodies.supports ? wheel_ : planet_) = {body.row, row_forces(bodies, setup, body, solution),
+      (body.row == bodies.supports ? wheel_ : pinion_) = {body.row, row_forces(bodies, setup, body, solution),
                                                           support_motion(body, solution)};
   }
 
   /// Largest approach of the two flanks along their height, m, in every slice.
   [[nodiscard]] Eigen::VectorXd approach(int pair) const {
-    return (approach_ - bodies_.planet.least_by_slice(planet(pair)).array() -
+    return (approach_ - bodies_.pinion.least_by_slice(pinion(pair)).array() -
             bodies_.wheel.least_by_slice(wheel(pair)).array())
         .matrix();
   }
   /// An upper bound of it, which nearly always suffices.
   [[nodiscard]] Eigen::VectorXd most_approach(int pair) const {
     const int here = wheel_tooth(bodies_.face.flanks(), pair, 0);
-    Eigen::VectorXd least_sum = Eigen::VectorXd::Zero(bodies_.planet.slices());
+    Eigen::VectorXd least_sum = Eigen::VectorXd::Zero(bodies_.pinion.slices());
     for (const auto& [loaded, force] : loaded_)
-      least_sum += bodies_.planet.least_displacement(pair, loaded->planet, loaded->index, force) +
+      least_sum += bodies_.pinion.least_displacement(pair, loaded->pinion, loaded->index, force) +
                    bodies_.wheel.least_displacement(here, loaded->wheel,
                                                     wheel_tooth(bodies_.face.flanks(), loaded->index, 0), force);
-    if (planet_.row != nullptr) least_sum += bodies_.planet.least_by_slice(floating(planet_, bodies_.planet, pair));
+    if (pinion_.row != nullptr) least_sum += bodies_.pinion.least_by_slice(floating(pinion_, bodies_.pinion, pair));
     if (wheel_.row != nullptr)
       least_sum += bodies_.wheel.least_by_slice(
           floating(wheel_, bodies_.wheel, wheel_tooth(bodies_.face.flanks(), pair, cycle_)));
@@ -47,12 +47,12 @@ class FlankDeflections {
   }
 
  private:
-  [[nodiscard]] Eigen::VectorXd planet(int pair) const {
-    Eigen::VectorXd sum = bodies_.planet.displacement(pair, loaded_.front().pair->planet, loaded_.front().pair->index,
+  [[nodiscard]] Eigen::VectorXd pinion(int pair) const {
+    Eigen::VectorXd sum = bodies_.pinion.displacement(pair, loaded_.front().pair->pinion, loaded_.front().pair->index,
                                                       loaded_.front().force);
     for (std::size_t i = 1; i < loaded_.size(); ++i)
-      sum += bodies_.planet.displacement(pair, loaded_[i].pair->planet, loaded_[i].pair->index, loaded_[i].force);
-    if (planet_.row != nullptr) sum += floating(planet_, bodies_.planet, pair);
+      sum += bodies_.pinion.displacement(pair, loaded_[i].pair->pinion, loaded_[i].pair->index, loaded_[i].force);
+    if (pinion_.row != nullptr) sum += floating(pinion_, bodies_.pinion, pair);
     return sum;
   }
 
@@ -100,7 +100,7 @@ class FlankDeflections {
   int cycle_;
   double approach_;  // m, by the transmission error, along the normal
   std::vector<Loaded> loaded_;
-  Floating planet_, wheel_;
+  Floating pinion_, wheel_;
 };
 
 }  // namespace

@@ -16,12 +16,12 @@ double ahead_of_middle(const FlankContact& flanks) {
   return std::abs(roll_per_z(flanks)) * flanks.pair().common_face().width / 2;
 }
 
-/// Number and planet roll length of the pairs within a range.
+/// Number and pinion roll length of the pairs within a range.
 std::vector<std::pair<int, double>> pairs_within(const FlankContact& flanks, const PairRange& range, double phase) {
   const auto& pair = flanks.pair();
   const double pitch = pair.pinion().base_pitch(), ahead = ahead_of_middle(flanks);
   // Along the path the contact of a tooth moves from the root of the driving gear to its tip.
-  const double direction = pair.driver() == geometry::Driver::pinion ? 1 : -1;
+  const double direction = pair.driver() == geometry::GearRole::pinion ? 1 : -1;
   const double reference = pair.roll_length_pitch() + direction * phase * pitch;
   const int first = static_cast<int>(std::ceil((range.low - ahead - reference) / pitch));
   const int last = static_cast<int>(std::floor((range.high + ahead - reference) / pitch));
@@ -156,7 +156,7 @@ std::vector<std::pair<int, double>> possible_pairs(const FlankContact& flanks, d
 
 void find_pairs(const ContactBodies& bodies, const PressureElements& elements, const PairRange& range,
                 ToothPairs& setup) {
-  auto all = facing_flanks(bodies.face, bodies.planet.slices(), pairs_within(bodies.face.flanks(), range, setup.phase));
+  auto all = facing_flanks(bodies.face, bodies.pinion.slices(), pairs_within(bodies.face.flanks(), range, setup.phase));
   const double least = find_gaps(bodies.face, all, setup);
   setup.first_pair = all.front().pair;
   setup.last_pair = all.back().pair;
@@ -185,7 +185,7 @@ void find_pairs(const ContactBodies& bodies, const PressureElements& elements, c
   const auto empty = [](const ToothPair& p) { return p.elements.empty(); };
   setup.pairs.erase(std::remove_if(setup.pairs.begin(), setup.pairs.end(), empty), setup.pairs.end());
   for (auto& p : setup.pairs) {
-    bodies.planet.find_weights(p.planet, p.index);
+    bodies.pinion.find_weights(p.pinion, p.index);
     bodies.wheel.find_weights(p.wheel, wheel_tooth(bodies.face.flanks(), p.index, 0));
   }
 }

@@ -11,7 +11,7 @@ namespace annulus::fem {
 
 /// Where tooth pairs are looked for.
 struct PairRange {
-  double low = 0, high = 0;  ///< m, planet roll lengths of theoretical contacts
+  double low = 0, high = 0;  ///< m, pinion roll lengths of theoretical contacts
   double gap_beyond = 0;     ///< m, along the normal: flanks beyond are further apart without load
 };
 /// One base pitch beyond both ends of the path of contact.
@@ -24,7 +24,7 @@ struct PairRange {
 /// Largest number of pairs that a range holds at any phase.
 [[nodiscard]] int most_pairs_in(const PairRange& range, const FlankContact& flanks);
 
-/// Tooth pairs up to a pitch beyond the path of contact: number, and planet roll length (m) of their theoretical
+/// Tooth pairs up to a pitch beyond the path of contact: number, and pinion roll length (m) of their theoretical
 /// contact. `phase` in mesh cycles from the pitch-point contact of teeth 0.
 [[nodiscard]] std::vector<std::pair<int, double>> possible_pairs(const FlankContact& flanks, double phase);
 

@@ -55,7 +55,7 @@ Eigen::VectorXd PlanetOnRollers::partner_forces(double angle) const {
     // In the mirror image the tooth stands at the opposite angle, and rolls by its distance from where its roll is 0.
     const double mirrored = -(angle + tooth * planet_.pitch_angle);
     const double middle = (low + high) / 2;
-    const double roll = middle + base * std::remainder(mirrored - partner_.planet_tooth_angle(middle), 2 * M_PI);
+    const double roll = middle + base * std::remainder(mirrored - partner_.pinion_tooth_angle(middle), 2 * M_PI);
     if (roll <= low || roll >= high) continue;
     const double share = (roll - low) * (high - roll);
     contacts.push_back({tooth, roll, share});

@@ -10,12 +10,12 @@ namespace annulus::fem {
 
 double PressureElements::shortest(const ToothPair& pair, double arc) const {
   const auto& flanks = bodies_.face.flanks();
-  const double planet = bodies_.planet.shortest_element(pair.index, arc);
-  if (planet == 0) return 0;
+  const double pinion = bodies_.pinion.shortest_element(pair.index, arc);
+  if (pinion == 0) return 0;
   const double roll = std::sqrt(2 * flanks.pair().pinion().base_radius() * std::max(arc, 0.0));
   const double opposite = flanks.match(roll, pair.roll).wheel_roll;
   const double wheel_arc = opposite * opposite / (2 * flanks.pair().wheel().base_radius());
-  return std::max(planet, bodies_.wheel.shortest_element(wheel_tooth(flanks, pair.index, 0), wheel_arc));
+  return std::max(pinion, bodies_.wheel.shortest_element(wheel_tooth(flanks, pair.index, 0), wheel_arc));
 }
 
 std::vector<double> PressureElements::edges(const ToothPair& pair, double centre, double direction, double half,
@@ -51,7 +51,7 @@ void PressureElements::add(ToothPair& pair, const FacingFlanks& facing, double l
   const auto* measured = bodies_.face.measured(facing.slices.front());
   const double base = flanks.pair().pinion().base_radius(), wheel_base = flanks.pair().wheel().base_radius();
   const double half_width = hertz_half_width(flanks, roll, load / bodies_.face.width(), materials_);
-  const auto arc_of = [&](double planet_roll) { return planet_roll * planet_roll / (2 * base); };
+  const auto arc_of = [&](double pinion_roll) { return pinion_roll * pinion_roll / (2 * base); };
   const auto roll_of = [&](double arc) {
     return std::clamp(std::sqrt(2 * base * std::max(arc, 0.0)), domain.low, domain.high);
   };
@@ -76,7 +76,7 @@ void PressureElements::add(ToothPair& pair, const FacingFlanks& facing, double l
     for (auto edge = up.begin() + 1; edge != up.end(); ++edge) edges.push_back(centre + *edge);
   }
 
-  const int first_load = static_cast<int>(pair.planet.loads.size());
+  const int first_load = static_cast<int>(pair.pinion.loads.size());
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
     const double low = edges[e], high = edges[e + 1];
     ToothPair::Element element;
@@ -99,7 +99,7 @@ void PressureElements::add(ToothPair& pair, const FacingFlanks& facing, double l
         wheel_arc += weight * arc;
         if (q + 1 == Rule::abscissa().size()) (side < 0 ? wheel_low : wheel_high) = arc;
       }
-    pair.planet.loads.push_back(bodies_.planet.make_load(pair.index, (low + high) / 2, (high - low) / 2));
+    pair.pinion.loads.push_back(bodies_.pinion.make_load(pair.index, (low + high) / 2, (high - low) / 2));
     pair.wheel.loads.push_back(bodies_.wheel.make_load(wheel_tooth(flanks, pair.index, 0), wheel_arc,
                                                        std::abs(wheel_high - wheel_low) / 2 / Rule::abscissa().back()));
     for (const int s : facing.slices) {
@@ -107,7 +107,7 @@ void PressureElements::add(ToothPair& pair, const FacingFlanks& facing, double l
       element.area = (high - low) * (z[s + 1] - z[s]) / bodies_.face.normal_factor();
       pair.elements.push_back(element);
       const FlankPatch::Element of_patch{first_load + static_cast<int>(e), s};
-      pair.planet.elements.push_back(of_patch);
+      pair.pinion.elements.push_back(of_patch);
       pair.wheel.elements.push_back(of_patch);
     }
   }

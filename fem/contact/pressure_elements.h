@@ -15,7 +15,7 @@ class SupportRow;
 /// Both bodies in contact over a face. Everything is referred to.
 struct ContactBodies {
   const ContactFace& face;
-  const ContactBody &planet, &wheel;
+  const ContactBody &pinion, &wheel;
   const SupportRow* supports = nullptr;      ///< of a wheel that floats
   const PlanetOnRollers* rollers = nullptr;  ///< of a planet that stands on them
 };
@@ -41,10 +41,10 @@ class PressureElements {
 
  private:
   /// Distances of the elements' edges from the centre of a window towards one of its ends, `half` away, from 0 on. Arc
-  /// lengths on the planet: `centre`, and `direction` 1 or -1.
+  /// lengths on the pinion: `centre`, and `direction` 1 or -1.
   [[nodiscard]] std::vector<double> edges(const ToothPair& pair, double centre, double direction, double half,
                                           int per_side) const;
-  /// Length of the shortest element both flanks carry at a planet arc length, m.
+  /// Length of the shortest element both flanks carry at a pinion arc length, m.
   [[nodiscard]] double shortest(const ToothPair& pair, double arc) const;
 
   ContactBodies bodies_;

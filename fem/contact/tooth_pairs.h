@@ -13,13 +13,13 @@ namespace annulus::fem {
 
 /// One tooth pair that may touch: its window, divided into pressure elements, on both flanks.
 struct ToothPair {
-  int index = 0;    ///< number of the pair, and of the planet's tooth in cycle 0
-  double roll = 0;  ///< theoretical contact on the planet
+  int index = 0;    ///< number of the pair, and of the pinion's tooth in cycle 0
+  double roll = 0;  ///< theoretical contact on the pinion
   double smallest_gap = std::numeric_limits<double>::infinity();
-  FlankPatch planet, wheel;  ///< the same elements on both
+  FlankPatch pinion, wheel;  ///< the same elements on both
   struct Element {
     double gap = 0;                      ///< mean, m
-    double roll_low = 0, roll_high = 0;  ///< on the planet, m
+    double roll_low = 0, roll_high = 0;  ///< on the pinion, m
     double area = 0;                     ///< m^2
     double distance = 0;                 ///< from the centre of the window, m
     bool tip_edge = false;               ///< ends at the end of a flank
@@ -32,7 +32,7 @@ struct ToothPair {
 /// Two flanks facing each other over some slices, in which the theoretical contact stands at the same place.
 struct FacingFlanks {
   int pair = 0;
-  double pair_roll = 0, roll = 0;  ///< theoretical contact on the planet: of the pair, and in these slices
+  double pair_roll = 0, roll = 0;  ///< theoretical contact on the pinion: of the pair, and in these slices
   FlankContact::Interval domain;
   double centre_roll = 0;   ///< where the flanks are nearest
   double gap = 0;           ///< m, there, along the normal; without the lead's

@@ -13,10 +13,9 @@ namespace {
 
 /// A line of the solve as a curve of the real body, at the axial station with the largest stress. The ring mesh is
 /// solved in a mirror image.
-StressCurve make_curve(const char* name, std::size_t position, const StressRecovery::Line& line, bool mirrored) {
-  StressCurve curve;
-  curve.name = name;
-  curve.position = position;
+StressCurve make_curve(geometry::GearRole body, StressCurve::Along along, std::size_t position,
+                       const StressRecovery::Line& line, bool mirrored) {
+  StressCurve curve{.body = body, .along = along, .position = position};
   Eigen::Index point = 0, station = 0;
   line.von_mises.maxCoeff(&point, &station);
   for (std::size_t i = 0; i < line.abscissa.size(); ++i) {
@@ -25,9 +24,8 @@ StressCurve make_curve(const char* name, std::size_t position, const StressRecov
     curve.von_mises.push_back(line.von_mises(static_cast<Eigen::Index>(i), station));
   }
   if (!mirrored) return curve;
-  const bool along_arc = curve.name != "wheel rim" && curve.name != "planet rim";
   const double length = curve.abscissa.back();
-  for (auto& a : curve.abscissa) a = along_arc ? length - a : -a;
+  for (auto& a : curve.abscissa) a = along == StressCurve::Along::root ? length - a : -a;
   for (auto* values : {&curve.abscissa, &curve.tangential, &curve.von_mises})
     std::reverse(values->begin(), values->end());
   return curve;
@@ -55,48 +53,47 @@ ContactForces forces_at(const ContactSystem& system, const LoadedPosition& posit
 std::vector<StressCurve> worst_curves(const LoadedMeshProblem& problem, const MeshBodies& bodies,
                                       const ContactSystem& system, const std::vector<LoadedPosition>& positions) {
   std::vector<StressCurve> result;
-  const auto add = [&](const char* name, double BodyStress::*value,
-                       std::optional<RecoveredStress> LoadedPosition::*body,
-                       StressRecovery::Line StressRecovery::Result::*line) {
-    const auto stress = [&](const LoadedPosition& p) { return (*(p.*body)).*value; };
-    const std::size_t worst = worst_position(positions, problem.loads.size(), stress);
-    if (stress(positions[worst]) == 0) return;  // no such line
-    const auto forces = forces_at(system, positions[worst]);
-    const auto all = body == &LoadedPosition::wheel_stress
-                         ? bodies.wheel_stress->stresses(forces.wheel, forces.supports)
-                         : bodies.planet_stress->stresses(forces.planet, forces.rollers);
-    result.push_back(make_curve(name, worst, all.*line, problem.pair.internal()));
-  };
+  using Along = StressCurve::Along;
   using Result = StressRecovery::Result;
-  add("planet root", &BodyStress::root_von_mises, &LoadedPosition::planet_stress, &Result::root);
-  add("planet rim", &BodyStress::rim_von_mises, &LoadedPosition::planet_stress, &Result::rim);
-  add("wheel root", &BodyStress::root_von_mises, &LoadedPosition::wheel_stress, &Result::root);
-  add("wheel rim", &BodyStress::rim_von_mises, &LoadedPosition::wheel_stress, &Result::rim);
+  for (const auto body : {geometry::GearRole::pinion, geometry::GearRole::wheel}) {
+    const bool wheel = body == geometry::GearRole::wheel;
+    const auto found = wheel ? &LoadedPosition::wheel_stress : &LoadedPosition::pinion_stress;
+    for (const auto& [along, value, line] : {std::tuple{Along::root, &BodyStress::root_von_mises, &Result::root},
+                                             {Along::rim, &BodyStress::rim_von_mises, &Result::rim}}) {
+      const auto stress = [found, of = value](const LoadedPosition& p) { return (*(p.*found)).*of; };
+      const std::size_t worst = worst_position(positions, problem.loads.size(), stress);
+      if (stress(positions[worst]) == 0) continue;  // no such line
+      const auto forces = forces_at(system, positions[worst]);
+      const auto all = wheel ? bodies.wheel_stress->stresses(forces.wheel, forces.supports)
+                             : bodies.pinion_stress->stresses(forces.pinion, forces.rollers);
+      result.push_back(make_curve(body, along, worst, all.*line, problem.pair.internal()));
+    }
+  }
   return result;
 }
 
-/// Displacement and stress of both bodies where the wheel's root, or without one the planet's, is stressed most.
+/// Displacement and stress of both bodies where the wheel's root, or without one the pinion's, is stressed most.
 std::vector<BodyField> worst_fields(const LoadedMeshProblem& problem, const MeshBodies& bodies,
                                     const ContactSystem& system, const std::vector<LoadedPosition>& positions) {
   const std::size_t worst =
       worst_position(positions, problem.loads.size(), [](const auto& p) { return p.wheel_stress->root_von_mises; });
   const auto forces = forces_at(system, positions[worst]);
   std::vector<BodyField> fields;
-  const auto add = [&](const char* name, const BodySource& source, const CondensedBody& body, const Material& material,
-                       const std::vector<ToothForces>& teeth, const SupportRow* supports, const Eigen::VectorXd& held,
-                       const Eigen::VectorXd& rigid) {
+  const auto add = [&](geometry::GearRole gear, const BodySource& source, const CondensedBody& body,
+                       const Material& material, const std::vector<ToothForces>& teeth, const SupportRow* supports,
+                       const Eigen::VectorXd& held, const Eigen::VectorXd& rigid) {
     const FieldRecovery recovery(body.body(), source, material, problem.face_width, supports);
     fields.push_back(recovery.field(teeth, held, rigid, problem.pair.internal()));
-    fields.back().body = name;
+    fields.back().body = gear;
     fields.back().position = worst;
   };
   // Without its motion in the bearing, which would hide how it deforms.
-  Eigen::VectorXd planet_rigid = forces.planet_rigid;
-  if (planet_rigid.size() > 0) planet_rigid.head<2>().setZero();
-  add("planet", bodies.planet_source, *bodies.planet, problem.materials.planet, forces.planet,
-      bodies.rollers ? &bodies.rollers->row() : nullptr, forces.rollers, planet_rigid);
-  add("wheel", bodies.wheel_source, *bodies.wheel, problem.materials.wheel, forces.wheel, bodies.supports.get(),
-      forces.supports, forces.rigid);
+  Eigen::VectorXd pinion_rigid = forces.pinion_rigid;
+  if (pinion_rigid.size() > 0) pinion_rigid.head<2>().setZero();
+  add(geometry::GearRole::pinion, bodies.pinion_source, *bodies.pinion, problem.materials.pinion, forces.pinion,
+      bodies.rollers ? &bodies.rollers->row() : nullptr, forces.rollers, pinion_rigid);
+  add(geometry::GearRole::wheel, bodies.wheel_source, *bodies.wheel, problem.materials.wheel, forces.wheel,
+      bodies.supports.get(), forces.supports, forces.rigid);
   return fields;
 }
 
@@ -131,7 +128,7 @@ double contact_error(const LoadedMeshProblem& problem, const FlankContact& flank
                      ContactOptions options, const std::vector<LoadedPosition>& positions) {
   constexpr int places = 4;
   options.elements *= 2;
-  const ContactSystem finer(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.materials,
+  const ContactSystem finer(flanks, *bodies.pinion, *bodies.wheel, bodies.supports.get(), problem.materials,
                             bodies.slice_edges, options, bodies.rollers.get());
   const std::size_t loads = problem.loads.size();
   double largest = 0;
@@ -155,9 +152,9 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   const Stopwatch watch;
   ContactOptions options;
   options.elements = pressure_elements(problem, settings, level);
-  options.gaps = {problem.misalignment, problem.planet_overhang.below, problem.wheel_overhang.below};
+  options.gaps = {problem.misalignment, problem.pinion_overhang.below, problem.wheel_overhang.below};
   options.half_face = bodies.face.half;
-  const ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.materials,
+  const ContactSystem system(flanks, *bodies.pinion, *bodies.wheel, bodies.supports.get(), problem.materials,
                              bodies.slice_edges, options, bodies.rollers.get());
   const int middle = static_cast<int>(problem.loads.size() / 2);
   PositionSolver solver;
@@ -172,15 +169,15 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   };
   solver.find_stresses = [&](std::vector<PositionTask::Solved>& solved) {
     using Look = StressRecovery::Look;
-    std::vector<StressRecovery::Forces> planet, wheel;
+    std::vector<StressRecovery::Forces> pinion, wheel;
     for (const auto& s : solved) {
       const auto look = s.load == middle ? Look::around : Look::near;
-      planet.push_back({&s.forces.planet, &s.forces.rollers, look});
+      pinion.push_back({&s.forces.pinion, &s.forces.rollers, look});
       wheel.push_back({&s.forces.wheel, &s.forces.supports, look});
     }
-    const auto of_planet = bodies.planet_stress->largest(planet), of_wheel = bodies.wheel_stress->largest(wheel);
+    const auto of_pinion = bodies.pinion_stress->largest(pinion), of_wheel = bodies.wheel_stress->largest(wheel);
     for (std::size_t i = 0; i < solved.size(); ++i) {
-      solved[i].position->planet_stress = of_planet[i];
+      solved[i].position->pinion_stress = of_pinion[i];
       solved[i].position->wheel_stress = of_wheel[i];
     }
   };
@@ -190,7 +187,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   const double compared = accept ? compared_share(problem) : 1;
   solve_positions(problem, settings, PositionsOf::comparison, tasks, solver, part_of(progress, 0, compared),
                   result.positions);
-  result.own.planet_notch = bodies.planet_notch.error;
+  result.own.pinion_notch = bodies.pinion_notch.error;
   result.own.wheel_notch = bodies.wheel_notch.error;
   if (accept) result.own.contact = contact_error(problem, flanks, bodies, options, result.positions);
   if (accept && accept(result)) {
@@ -200,7 +197,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
     result.gauges = gauge_histories(problem, flanks, result.positions);
     if (settings.recovery == Recovery::fields) result.fields = worst_fields(problem, bodies, system, result.positions);
   }
-  result.planet_sector = std::move(bodies.planet_sector);
+  result.pinion_sector = std::move(bodies.pinion_sector);
   result.wheel_sector = std::move(bodies.wheel_sector);
   result.half_face = bodies.face.half;
   result.unknowns = bodies.unknowns;

@@ -144,7 +144,7 @@ LevelErrors estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSe
   // plane sections (spur teeth with fillets of 0.38 modules).
   const double most_left = settings.degree == 1 ? 3 : most_left_over(settings.degree);
   for (const auto& [body, largest, notch] :
-       {std::tuple{&LoadedPosition::planet_stress, &LevelErrors::planet_stress, own.planet_notch},
+       {std::tuple{&LoadedPosition::pinion_stress, &LevelErrors::pinion_stress, own.pinion_notch},
         {&LoadedPosition::wheel_stress, &LevelErrors::wheel_stress, own.wheel_notch}}) {
     result.*largest = largest_stress_errors(problem, coarser, positions, body, {most_left, notch});
     fill_stress_errors(problem, coarser, body, {most_left, notch}, positions);

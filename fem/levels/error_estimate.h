@@ -14,7 +14,7 @@ namespace annulus::fem {
 /// Relative errors that a level estimates by itself.
 struct OwnErrors {
   double contact = 0;                        ///< of the stiffness, by the discretised pressure
-  double planet_notch = 0, wheel_notch = 0;  ///< of the stresses in roots, by the cells in the fillet (NotchFactors)
+  double pinion_notch = 0, wheel_notch = 0;  ///< of the stresses in roots, by the cells in the fillet (NotchFactors)
 };
 
 /// Errors estimated from two successive levels, relative to the stiffness; the largest of all positions at the middle
@@ -22,7 +22,7 @@ struct OwnErrors {
 struct LevelErrors {
   double worst = 0;       ///< estimated error, without what the model leaves out: what the wanted accuracy is about
   double difference = 0;  ///< between the levels
-  BodyStress planet_stress{}, wheel_stress{};  ///< Pa, of the largest stresses at that load; NaN where not known
+  BodyStress pinion_stress{}, wheel_stress{};  ///< Pa, of the largest stresses at that load; NaN where not known
 };
 
 /// Fills the errors of all positions of a level from those of the level before. `before`: the difference that the

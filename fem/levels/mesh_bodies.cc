@@ -37,9 +37,9 @@ void set_material(GearTasks& gear, const Material& material) {
 }
 
 /// In the order in which they are started.
-std::vector<Task*> all_tasks(GearTasks& planet, GearTasks& wheel) {
-  std::vector<Task*> tasks = {&planet.body, &wheel.body};
-  for (auto* gear : {&planet, &wheel})
+std::vector<Task*> all_tasks(GearTasks& pinion, GearTasks& wheel) {
+  std::vector<Task*> tasks = {&pinion.body, &wheel.body};
+  for (auto* gear : {&pinion, &wheel})
     for (auto* section : {&gear->fine, &gear->coarse})
       if (*section) tasks.push_back(&**section);
   return tasks;
@@ -150,9 +150,9 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const bool solid = settings.fidelity == Fidelity::solid;
   const auto dimension = solid ? BodyPlan::Dimension::solid : BodyPlan::Dimension::plane;
   const SolvedFace face = solved_face(problem, settings);
-  const BodyPlan planet_plan(problem, flanks.pinion(), BodyPlan::Role::planet, geometry::Boundary::leading_flank,
+  const BodyPlan pinion_plan(problem, flanks.pinion(), geometry::GearRole::pinion, geometry::Boundary::leading_flank,
                              settings.degree, dimension, face);
-  const BodyPlan wheel_plan(problem, flanks.wheel(), BodyPlan::Role::wheel, flanks.wheel_flank(), settings.degree,
+  const BodyPlan wheel_plan(problem, flanks.wheel(), geometry::GearRole::wheel, flanks.wheel_flank(), settings.degree,
                             dimension, face);
   const int neighbours = most_pairs_in(possible_contacts(flanks), flanks) - 1;
   const TaskMaker maker(problem, settings, level, std::max(1, neighbours));
@@ -164,11 +164,11 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
                      wheel_plan.support_edges(support_slices(problem, counts.face_cells)), face.part(),
                      wheel_plan.turn());
   std::optional<SupportPlan> bed;
-  if (planet_plan.floating())
+  if (pinion_plan.floating())
     bed = PlanetOnRollers::bed(*problem.planet_rollers, pair.pinion().teeth(),
-                               planet_plan.support_edges(support_slices(problem, counts.face_cells)), face.part());
-  GearTasks planet = maker.make(planet_plan, bed), wheel = maker.make(wheel_plan, supports);
-  if (bed) planet.body.options.other_flank = {PlanetOnRollers::places, 0, face.half ? face.width / 2 : face.width};
+                               pinion_plan.support_edges(support_slices(problem, counts.face_cells)), face.part());
+  GearTasks pinion = maker.make(pinion_plan, bed), wheel = maker.make(wheel_plan, supports);
+  if (bed) pinion.body.options.other_flank = {PlanetOnRollers::places, 0, face.half ? face.width / 2 : face.width};
   std::vector<StrainGauge> gauges;
   for (const auto& gauge : problem.gauges) {
     gauges.push_back(in_solve(gauge, problem, wheel_plan));
@@ -184,17 +184,17 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   bodies.mesh_seconds = meshing.seconds();
   const Stopwatch condensing;
   lapack::use_one_thread();
-  const auto tasks = all_tasks(planet, wheel);
-  set_material(planet, problem.materials.planet);
+  const auto tasks = all_tasks(pinion, wheel);
+  set_material(pinion, problem.materials.pinion);
   set_material(wheel, problem.materials.wheel);
   condense_all(tasks, settings.threads);
   for (const auto* task : tasks) ++(task->reused ? bodies.reused_teeth : bodies.condensed_teeth);
   bodies.face = face;
   bodies.slice_edges = face.edges(solid ? slices_per_cell(problem, settings.degree) * counts.face_cells : 1);
-  bodies.unknowns = planet.body.body.unknowns + wheel.body.body.unknowns;
-  bodies.planet_source = source_of(planet.body);
+  bodies.unknowns = pinion.body.body.unknowns + wheel.body.body.unknowns;
+  bodies.pinion_source = source_of(pinion.body);
   bodies.wheel_source = source_of(wheel.body);
-  bodies.planet_sector = face.half ? planet_plan.whole_sector(counts) : std::move(planet.body.mesh);
+  bodies.pinion_sector = face.half ? pinion_plan.whole_sector(counts) : std::move(pinion.body.mesh);
   bodies.wheel_sector = face.half ? wheel_plan.whole_sector(counts) : std::move(wheel.body.mesh);
   const double slant = 1 / std::cos(pair.pinion().base_helix_angle());
   const auto condensed = [&](GearTasks& gear, double base_radius, const Material& material) {
@@ -202,17 +202,17 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     return std::make_unique<CondensedBody>(std::move(gear.body.body), base_radius, material, bodies.slice_edges,
                                            std::move(near), slant);
   };
-  const Material &of_planet = problem.materials.planet, &of_wheel = problem.materials.wheel;
-  bodies.planet_notch = notch_of(planet, of_planet.poisson_ratio, settings.degree);
+  const Material &of_pinion = problem.materials.pinion, &of_wheel = problem.materials.wheel;
+  bodies.pinion_notch = notch_of(pinion, of_pinion.poisson_ratio, settings.degree);
   bodies.wheel_notch = notch_of(wheel, of_wheel.poisson_ratio, settings.degree);
-  bodies.planet = condensed(planet, pair.pinion().base_radius(), of_planet);
+  bodies.pinion = condensed(pinion, pair.pinion().base_radius(), of_pinion);
   bodies.wheel = condensed(wheel, pair.wheel().base_radius(), of_wheel);
   if (supports) bodies.supports = std::make_unique<SupportRow>(std::move(*supports), bodies.wheel->body());
   if (bed)
-    bodies.rollers = std::make_unique<PlanetOnRollers>(*problem.planet_rollers, std::move(*bed), bodies.planet->body());
-  bodies.planet_stress =
-      std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width, of_planet.poisson_ratio,
-                                       bed ? &bodies.rollers->row() : nullptr, bodies.planet_notch);
+    bodies.rollers = std::make_unique<PlanetOnRollers>(*problem.planet_rollers, std::move(*bed), bodies.pinion->body());
+  bodies.pinion_stress =
+      std::make_unique<StressRecovery>(bodies.pinion->body(), problem.face_width, of_pinion.poisson_ratio,
+                                       bed ? &bodies.rollers->row() : nullptr, bodies.pinion_notch);
   bodies.wheel_stress = std::make_unique<StressRecovery>(
       bodies.wheel->body(), problem.face_width, of_wheel.poisson_ratio, bodies.supports.get(), bodies.wheel_notch);
   std::size_t in_section = 0;

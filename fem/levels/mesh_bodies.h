@@ -19,16 +19,16 @@ namespace annulus::fem {
 
 /// The two condensed bodies of a loaded mesh at one level of resolution, ready for contact, and what they took.
 struct MeshBodies : SolveCost {
-  std::unique_ptr<CondensedBody> planet, wheel;
+  std::unique_ptr<CondensedBody> pinion, wheel;
   std::unique_ptr<SupportRow> supports;      ///< of a floating ring
   std::unique_ptr<PlanetOnRollers> rollers;  ///< of a planet on rollers
-  std::unique_ptr<StressRecovery> planet_stress, wheel_stress;
+  std::unique_ptr<StressRecovery> pinion_stress, wheel_stress;
   std::vector<GaugeRecovery> gauges;  ///< on the wheel, as in the problem
-  NotchFactors planet_notch, wheel_notch;
-  BodySource planet_source, wheel_source;
+  NotchFactors pinion_notch, wheel_notch;
+  BodySource pinion_source, wheel_source;
   SolvedFace face;
   std::vector<double> slice_edges;             ///< m, of the solved part of the face
-  geometry::Mesh planet_sector, wheel_sector;  ///< over the whole face
+  geometry::Mesh pinion_sector, wheel_sector;  ///< over the whole face
   long unknowns = 0;
 };
 

@@ -51,7 +51,7 @@ struct PlaceOfContact {
   double half_width = 0;        ///< m, if this contact took the whole load
   std::vector<double> edges{};  ///< m, likewise, of tip edges within reach
   double gap = 0;               ///< m, smallest before loading
-  double roll = 0;              ///< m, theoretical contact on the planet
+  double roll = 0;              ///< m, theoretical contact on the pinion
   bool resolved = true;         ///< else the tooth keeps its regular mesh
 };
 
@@ -121,7 +121,7 @@ struct ResolvedMesh {
   const FlankContact& flanks;
   BodyPlan::Dimension dimension;
   SolvedFace face;
-  Exchangeable planet, wheel;
+  Exchangeable pinion, wheel;
   std::vector<double> slice_edges;
 
   ResolvedMesh(const LoadedMeshProblem& p, const LoadedMeshSettings& settings, const FlankContact& f, int level)
@@ -130,46 +130,46 @@ struct ResolvedMesh {
         dimension(settings.fidelity == Fidelity::resolved_solid ? BodyPlan::Dimension::solid
                                                                 : BodyPlan::Dimension::plane),
         face(solved_face(p, settings)),
-        planet({p, f.pinion(), BodyPlan::Role::planet, geometry::Boundary::leading_flank, settings.degree, dimension,
-                face},
-               p.materials.planet, dimension, level, settings.threads),
-        wheel({p, f.wheel(), BodyPlan::Role::wheel, f.wheel_flank(), settings.degree, dimension, face},
+        pinion({p, f.pinion(), geometry::GearRole::pinion, geometry::Boundary::leading_flank, settings.degree,
+                dimension, face},
+               p.materials.pinion, dimension, level, settings.threads),
+        wheel({p, f.wheel(), geometry::GearRole::wheel, f.wheel_flank(), settings.degree, dimension, face},
               p.materials.wheel, dimension, level, settings.threads),
         slice_edges(face.edges(dimension == BodyPlan::Dimension::solid
-                                   ? slices_per_cell(p, settings.degree) * planet.resolution.regular.face_cells
+                                   ? slices_per_cell(p, settings.degree) * pinion.resolution.regular.face_cells
                                    : 1)) {}
 
   [[nodiscard]] LoadedPosition solve(double phase, double load) const;
 
  private:
-  /// Contacts of all pairs in their order, on the planet and on the wheel.
+  /// Contacts of all pairs in their order, on the pinion and on the wheel.
   struct Places {
-    std::vector<PlaceOfContact> planet, wheel;
+    std::vector<PlaceOfContact> pinion, wheel;
   };
   [[nodiscard]] Places places(const std::vector<std::pair<int, double>>& pairs, double load) const;
 };
 
 ResolvedMesh::Places ResolvedMesh::places(const std::vector<std::pair<int, double>>& pairs, double load) const {
-  const auto planet_arc = [&](double roll) { return roll * roll / (2 * problem.pair.pinion().base_radius()); };
+  const auto pinion_arc = [&](double roll) { return roll * roll / (2 * problem.pair.pinion().base_radius()); };
   const auto wheel_arc = [&](double roll) { return roll * roll / (2 * problem.pair.wheel().base_radius()); };
   Places result;
   for (const auto& [index, roll] : pairs) {
-    PlaceOfContact planet_place;
-    planet_place.half_width = hertz_half_width(flanks, roll, load / problem.face_width, problem.materials);
-    planet_place.roll = roll;
+    PlaceOfContact pinion_place;
+    pinion_place.half_width = hertz_half_width(flanks, roll, load / problem.face_width, problem.materials);
+    pinion_place.roll = roll;
     const double centre = flanks.nearest_roll(roll, flanks.domain(roll));
     const auto opposite = flanks.match(centre, roll);
-    planet_place.gap = opposite.gap;
-    planet_place.arc = planet_arc(centre);
-    auto wheel_place = planet_place;
+    pinion_place.gap = opposite.gap;
+    pinion_place.arc = pinion_arc(centre);
+    auto wheel_place = pinion_place;
     wheel_place.arc = wheel_arc(opposite.wheel_roll);
     const auto domain = flanks.domain(roll);
     for (const double end : {domain.low, domain.high}) {
-      if (std::abs(planet_arc(end) - planet_place.arc) > patch_reach * planet_place.half_width) continue;
-      planet_place.edges.push_back(planet_arc(end));
+      if (std::abs(pinion_arc(end) - pinion_place.arc) > patch_reach * pinion_place.half_width) continue;
+      pinion_place.edges.push_back(pinion_arc(end));
       wheel_place.edges.push_back(wheel_arc(flanks.match(end, roll).wheel_roll));
     }
-    result.planet.push_back(std::move(planet_place));
+    result.pinion.push_back(std::move(pinion_place));
     result.wheel.push_back(std::move(wheel_place));
   }
   return result;
@@ -182,35 +182,35 @@ LoadedPosition ResolvedMesh::solve(double phase, double load) const {
   const int first = wheel_tooth(flanks, pairs.front().first, 0);
   const int last = wheel_tooth(flanks, pairs.back().first, 0);
   ContactOptions options;
-  options.gaps = {problem.misalignment, problem.planet_overhang.below, problem.wheel_overhang.below};
+  options.gaps = {problem.misalignment, problem.pinion_overhang.below, problem.wheel_overhang.below};
   options.half_face = face.half;
   options.window = patch_window;
   options.pairs = pitch_beyond_path(flanks);  // further teeth have no meshes
   Places contacts = places(pairs, load);
-  double least_gap = contacts.planet.front().gap;
-  for (const auto& place : contacts.planet) least_gap = std::min(least_gap, place.gap);
+  double least_gap = contacts.pinion.front().gap;
+  for (const auto& place : contacts.pinion) least_gap = std::min(least_gap, place.gap);
   // A pair further apart than such a softly estimated mesh gives way will not touch: no mesh of its own, which is most
   // of the work. Where it touches nevertheless, all pairs get theirs.
   constexpr double soft_mesh = 8e9;  // N/m per m of face width
   const double reach = load / (soft_mesh * problem.face_width);
-  for (auto* list : {&contacts.planet, &contacts.wheel})
+  for (auto* list : {&contacts.pinion, &contacts.wheel})
     for (auto& place : *list) place.resolved = place.gap - least_gap < reach;
   for (;;) {
     auto on_wheel = contacts.wheel;
     if (last < first) std::reverse(on_wheel.begin(), on_wheel.end());
-    const ResolvedBody planet_body =
-        planet.body(contacts.planet, pairs.front().first, problem.materials.planet, slice_edges);
+    const ResolvedBody pinion_body =
+        pinion.body(contacts.pinion, pairs.front().first, problem.materials.pinion, slice_edges);
     const ResolvedBody wheel_body = wheel.body(on_wheel, std::min(first, last), problem.materials.wheel, slice_edges);
-    const ContactSystem system(flanks, planet_body, wheel_body, nullptr, problem.materials, slice_edges, options);
+    const ContactSystem system(flanks, pinion_body, wheel_body, nullptr, problem.materials, slice_edges, options);
     ContactSystem::PairsCache cache;
     ContactSystem::WarmStart warm;
     auto position = system.solve(0, phase, load, cache, warm, nullptr);
     bool all_resolved = true;
     for (std::size_t i = 0; i < position.pair_share.size(); ++i)
-      for (const auto& place : contacts.planet)
+      for (const auto& place : contacts.pinion)
         if (place.roll == position.pair_roll[i] && position.pair_share[i] > 0) all_resolved &= place.resolved;
     if (all_resolved) return position;
-    for (auto* list : {&contacts.planet, &contacts.wheel})
+    for (auto* list : {&contacts.pinion, &contacts.wheel})
       for (auto& place : *list) place.resolved = true;
   }
 }
@@ -237,13 +237,13 @@ SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedM
     solve_positions(problem, settings, PositionsOf::table, PositionTasks::by_phase, solver,
                     part_of(progress, compared, 1), result.positions);
   result.contact_seconds = solving.seconds();
-  result.unknowns = mesh.planet.regular.body.unknowns + mesh.wheel.regular.body.unknowns;
+  result.unknowns = mesh.pinion.regular.body.unknowns + mesh.wheel.regular.body.unknowns;
   result.half_face = mesh.face.half;
   result.slice_edges = result.half_face ? mirrored_edges(mesh.slice_edges) : mesh.slice_edges;
   const auto whole = [&](const Exchangeable& gear) {
     return result.half_face ? gear.plan.whole_sector(gear.resolution.regular) : gear.regular_mesh;
   };
-  result.planet_sector = whole(mesh.planet);
+  result.pinion_sector = whole(mesh.pinion);
   result.wheel_sector = whole(mesh.wheel);
   return result;
 }

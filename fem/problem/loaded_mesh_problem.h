@@ -23,11 +23,11 @@ struct LoadedMeshProblem {
   geometry::GearPair pair;
   MeshMaterials materials{};
   double face_width = 0;            ///< m, of the common face, on which the flanks touch
-  double planet_bore_radius = 0;    ///< m, rigid hub, or the raceway of rollers
+  double pinion_bore_radius = 0;    ///< m, rigid hub, or the raceway of rollers
   double wheel_support_radius = 0;  ///< m: bore of the sun (rigid hub) or outside radius of the ring
   RingStructure structure{};        ///< ring mesh only; the outside held unless set
   double misalignment = 0;          ///< m over the face width, normal to the flanks, > 0 opens towards +z
-  geometry::Overhang planet_overhang{}, wheel_overhang{};  ///< teeth beyond the common face
+  geometry::Overhang pinion_overhang{}, wheel_overhang{};  ///< teeth beyond the common face
   std::vector<double> loads{};                             ///< N, total normal forces, strictly increasing
   int phases = 16;                                         ///< positions per mesh cycle
   std::string name = "mesh";                               ///< of the mesh in its stiffness table

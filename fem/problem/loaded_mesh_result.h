@@ -25,7 +25,7 @@ struct PinState {
 struct PressurePatch {
   int pair = 0;                        ///< index into LoadedPosition::pair_share
   double z_low = 0, z_high = 0;        ///< m
-  double roll_low = 0, roll_high = 0;  ///< m, roll lengths of the planet
+  double roll_low = 0, roll_high = 0;  ///< m, roll lengths of the pinion
   double pressure = 0;                 ///< Pa
 };
 
@@ -54,9 +54,9 @@ struct LoadedPosition {
   double ring_angle = 0;  ///< rad, of the pitch point in the wheel's own frame
   double load = 0;        ///< N
   StiffnessEntry entry;
-  /// Load share of the tooth pairs near enough to touch, in order of rising planet roll length.
+  /// Load share of the tooth pairs near enough to touch, in order of rising pinion roll length.
   std::vector<double> pair_share;
-  std::vector<double> pair_roll;  ///< m, planet roll length of each pair's theoretical contact point
+  std::vector<double> pair_roll;  ///< m, pinion roll length of each pair's theoretical contact point
   double max_pressure = 0;        ///< Pa
   bool tip_edge_contact = false;  ///< the peak pressure stands at a tip edge: singular, not to be compared
   std::vector<PinState> pins;
@@ -65,7 +65,7 @@ struct LoadedPosition {
   /// 0 first; and the angle of tooth 0 against the direction from the axis of the stage to the planet, rad, in the
   /// frame of the solve.
   std::vector<double> rollers;
-  double planet_angle = 0;
+  double pinion_angle = 0;
   /// Of a planet on rollers: m/N, by which a force of its other mesh deflects this mesh while the force of this one
   /// stays, less what a planet with a round rim would do. Part of the compliance behind the tangent stiffness, with
   /// which both forces change.
@@ -73,7 +73,7 @@ struct LoadedPosition {
   std::vector<double> line_load;        ///< N/m, of all pairs together, per slice of the face width from low to high z
   double face_load_factor = 1;          ///< K_H_beta [ISO6336-1]: largest over mean line load
   std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only
-  std::optional<RecoveredStress> planet_stress{}, wheel_stress{};  ///< none of resolved models
+  std::optional<RecoveredStress> pinion_stress{}, wheel_stress{};  ///< none of resolved models
   /// Under the middle load: strains of each gauge turned by 0, 1, ... teeth in the frame of the solve.
   std::vector<Eigen::VectorXd> gauge_strains{};
   double force_balance_relative = 0;  ///< |sum of force x lever arm - torque| / torque
@@ -85,7 +85,10 @@ struct LoadedPosition {
 
 /// Surface stress along a line, for pictures.
 struct StressCurve {
-  std::string name;              ///< "planet root", "planet rim" (of a planet on rollers), "wheel root", "wheel rim"
+  enum class Along { root, rim };  ///< rim: of a ring its outside, of a planet on rollers its bore
+
+  geometry::GearRole body = geometry::GearRole::pinion;
+  Along along = Along::root;
   std::size_t position = 0;      ///< index into LoadedMeshResult::positions: where its largest von Mises stress occurs
   std::vector<double> abscissa;  ///< root: arc length counter-clockwise through the tooth space, from form circle to
                                  ///< form circle, m; rim: polar angle in the wheel's own frame, rad
@@ -103,13 +106,13 @@ struct GaugeHistory {
 
 /// Displacement and stress of a body under the contact forces of one position, in the frame of its tooth 0.
 struct BodyField {
-  std::string body;          ///< "planet", "wheel"
+  geometry::GearRole body = geometry::GearRole::pinion;
   std::size_t position = 0;  ///< index into LoadedMeshResult::positions
   /// Sectors around the contact, each with vertices of its own, as many as make a file of some megabytes: of coarse
   /// plane bodies all. Of a symmetric face the lower half.
   geometry::Mesh mesh;
   int sectors = 1;
-  std::vector<Eigen::Vector3d> displacement;  ///< m, per vertex; of the planet relative to its hub
+  std::vector<Eigen::Vector3d> displacement;  ///< m, per vertex; of the pinion relative to its hub
   /// Pa, per vertex: xx, yy, zz, xy, yz, zx; means of the adjacent cells, so that peaks at edges are cut.
   std::vector<std::array<double, 6>> stress;
 
@@ -118,7 +121,7 @@ struct BodyField {
 
 /// Both bodies as one level of resolution solved them, with their supports, and what was recovered in them.
 struct SolvedBodies {
-  geometry::Mesh planet_sector{}, wheel_sector{};
+  geometry::Mesh pinion_sector{}, wheel_sector{};
   bool half_face = false;             ///< solved on half of the face width; all figures are those of the whole
   long unknowns = 0;                  ///< DOFs of the two sectors
   double pin_stiffness = 0;           ///< N/m per pin or spline flank as used; 0 without
@@ -153,7 +156,7 @@ struct LoadedMeshResult : SolvedBodies, SolveCost {
   double worst_error_relative = 0;
   /// Estimated errors by discretisation of the largest stresses over all positions at the middle load, Pa, positive.
   /// NaN where two levels did not have them.
-  BodyStress planet_stress_error{}, wheel_stress_error{};
+  BodyStress pinion_stress_error{}, wheel_stress_error{};
 };
 
 /// The stiffness table of solved positions, with closure and reciprocity. `positions`: [cycle][phase][load] over all

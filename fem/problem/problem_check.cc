@@ -49,7 +49,7 @@ void check_rollers(const LoadedMeshProblem& problem, Fidelity fidelity) {
   if (rollers.partner.pinion().teeth() != problem.pair.pinion().teeth() ||
       rollers.partner.internal() == problem.pair.internal())
     throw InputError(
-        fmt::format("the other mesh of a planet with {} teeth on rollers has a planet with {} teeth, and has to be {}",
+        fmt::format("the other mesh of a planet with {} teeth on rollers has a pinion with {} teeth, and has to be {}",
                     problem.pair.pinion().teeth(), rollers.partner.pinion().teeth(),
                     problem.pair.internal() ? "external" : "internal"));
 }
@@ -104,12 +104,12 @@ double plane_strain_error(const LoadedMeshProblem& problem) {
 }
 
 double plane_error(const LoadedMeshProblem& problem) {
-  // Solid sun meshes 10 modules wide are stiffer by 2.9, 4.5 and 7.5 % with a planet that is wider by 0.5, 1 and 4
+  // Solid sun meshes 10 modules wide are stiffer by 2.9, 4.5 and 7.5 % with a pinion that is wider by 0.5, 1 and 4
   // modules on either side: what is farther away than some modules supports no more.
   constexpr double most = 0.45;  // modules of width, on one side
   const double module = problem.pair.pinion().parameters().module;
   double supported = 0;
-  for (const auto* overhang : {&problem.planet_overhang, &problem.wheel_overhang})
+  for (const auto* overhang : {&problem.pinion_overhang, &problem.wheel_overhang})
     for (const double side : {overhang->below, overhang->above})
       supported += most * module * (1 - std::exp(-side / module));
   return plane_strain_error(problem) + supported / problem.face_width;

@@ -41,8 +41,8 @@ std::string asymmetry_of_face(const LoadedMeshProblem& problem) {
   if (pair.pinion().helix_angle() != 0) return "helical teeth";
   if (problem.misalignment != 0) return "misaligned flanks";
   if (varies(pair.pinion()) || varies(pair.wheel())) return "measured flanks";
-  if (!centred(problem.planet_overhang) || !centred(problem.wheel_overhang)) return "faces beside each other";
-  if (!symmetric_lead(pair.pinion(), problem.face_width + problem.planet_overhang.total()) ||
+  if (!centred(problem.pinion_overhang) || !centred(problem.wheel_overhang)) return "faces beside each other";
+  if (!symmetric_lead(pair.pinion(), problem.face_width + problem.pinion_overhang.total()) ||
       !symmetric_lead(pair.wheel(), problem.face_width + problem.wheel_overhang.total()))
     return "a lead modification that differs on both sides of the middle";
   return problem.structure.words().asymmetry;

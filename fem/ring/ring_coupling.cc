@@ -77,7 +77,7 @@ SolvedRingCoupling solve_level(const LoadedMeshProblem& problem, const std::vect
   const auto planets = static_cast<Eigen::Index>(teeth_ahead.size());
   const bool solid = solved_as_solid(problem, settings.model);
   const geometry::ToothProfile profile(mirrored(problem.pair.wheel()));
-  const BodyPlan body(problem, profile, BodyPlan::Role::wheel, geometry::Boundary::trailing_flank, settings.degree,
+  const BodyPlan body(problem, profile, geometry::GearRole::wheel, geometry::Boundary::trailing_flank, settings.degree,
                       solid ? BodyPlan::Dimension::solid : BodyPlan::Dimension::plane, {problem.face_width, false});
   const auto plan = support_plan(problem, body);
   RingFlexibilityOptions options;

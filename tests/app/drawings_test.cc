@@ -185,8 +185,8 @@ BOOST_AUTO_TEST_CASE(enlarged_teeth_show_what_contact_follows_from) {
   const Eigen::Vector2d a(std::stod(match[1]), std::stod(match[2])), e(std::stod(match[3]), std::stod(match[4]));
   const double scale = scale_of(svg);
   BOOST_TEST((e - a).norm() == scale * path, boost::test_tools::tolerance(1e-3));
-  const auto planet = gears(svg, "t-planet").front(), sun = gears(svg, "t-wheel").front();
-  BOOST_TEST((e - uses(svg, "gear-t-planet").front().at).norm() == scale * 52, boost::test_tools::tolerance(1e-3));
+  const auto planet = gears(svg, "t-pinion").front(), sun = gears(svg, "t-wheel").front();
+  BOOST_TEST((e - uses(svg, "gear-t-pinion").front().at).norm() == scale * 52, boost::test_tools::tolerance(1e-3));
   BOOST_TEST((a - uses(svg, "gear-t-wheel").front().at).norm() == scale * 52, boost::test_tools::tolerance(1e-3));
   // Contact points stand on both outlines.
   static const std::regex dot("<circle cx=\"([-0-9.]+)\" cy=\"([-0-9.]+)\" r=\"4.00\" fill=\"#c22f2f\"");

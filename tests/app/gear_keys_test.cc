@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(flanks_touch_on_the_common_face) {
   const auto &sun = sun_model.problem.value(), &ring = ring_model.problem.value();
   const auto is = [](double value, double mm) { return std::abs(value - mm * units::mm) < 1e-12; };
   BOOST_TEST((is(sun.face_width, 84) && is(sun.wheel_overhang.below, 3) && is(sun.wheel_overhang.above, 1)));
-  BOOST_TEST(sun.planet_overhang.total() == 0);
+  BOOST_TEST(sun.pinion_overhang.total() == 0);
   BOOST_TEST((is(ring.face_width, 84) && is(ring.wheel_overhang.below, 9) && is(ring.wheel_overhang.above, 7)));
   BOOST_TEST(app::solid_reason(scene).empty());
   // Farther apart the load varies along the face.

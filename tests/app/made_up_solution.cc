@@ -62,10 +62,14 @@ void add_contact(fem::LoadedPosition& p, const std::vector<double>& edges, doubl
 
 std::vector<fem::StressCurve> curves(bool internal, double scale) {
   std::vector<fem::StressCurve> list;
-  for (const auto* name : {"planet root", "wheel root", "wheel rim"}) {
-    fem::StressCurve curve{.name = name, .position = 0, .abscissa = {}, .tangential = {}, .von_mises = {}};
-    const bool rim = curve.name == "wheel rim";
+  using Along = fem::StressCurve::Along;
+  for (const auto& [body, along] : {std::pair{geometry::GearRole::pinion, Along::root},
+                                    {geometry::GearRole::wheel, Along::root},
+                                    {geometry::GearRole::wheel, Along::rim}}) {
+    const bool rim = along == Along::rim;
     if (rim && !internal) continue;
+    fem::StressCurve curve{
+        .body = body, .along = along, .position = 0, .abscissa = {}, .tangential = {}, .von_mises = {}};
     for (int i = 0; i < 200; ++i) {
       const double x = (i + 0.5) / 200;
       const double value = rim ? 40e6 * std::cos(4 * pi * x) : 250e6 * std::sin(2 * pi * x) * std::exp(-x);
@@ -107,7 +111,7 @@ fem::LoadedMeshResult made_up_solution(const app::MeshModel& model) {
         if (solid) p.face_load_factor = 1 + slope * 11.0 / 12;  // the outermost of twelve slices
         p.max_pressure -= 1e6 * p.mesh_phase;
         const double fade = 1 - 0.1 * p.mesh_phase - 0.001 * tooth;
-        p.planet_stress = fem::RecoveredStress{{150e6 * fade, -180e6 * fade, 200e6 * fade, 20e6, -25e6, 30e6}, {}, {}};
+        p.pinion_stress = fem::RecoveredStress{{150e6 * fade, -180e6 * fade, 200e6 * fade, 20e6, -25e6, 30e6}, {}, {}};
         p.wheel_stress = fem::RecoveredStress{
             {120e6 * fade, -140e6 * fade, 160e6 * fade, 40e6 * fade, -45e6 * fade, 50e6 * fade}, {}, {}};
         for (const double angle : pins) p.pins.push_back(pin_state(problem.structure, angle - p.ring_angle, p.load));

@@ -208,7 +208,7 @@ BOOST_AUTO_TEST_CASE(everything_known_is_kept) {
   BOOST_TEST(kept.stress.header.at(1).second == "ring root");
   // Tables and figures have the names of the bodies in common.
   auto named = model;
-  named.planet_body = "pinion";
+  named.pinion_body = "pinion";
   named.wheel_body = "wheel";
   const auto pair = app::pack(named, test::made_up_solution(named));
   BOOST_TEST_REQUIRE(pair.peak("pinion_root_tension_MPa").has_value());

@@ -138,8 +138,8 @@ BOOST_AUTO_TEST_CASE(pictures_of_supports) {
     const auto& problem = *model.problem;
     auto solved = test::made_up_solution(model);
     const geometry::SectorResolution coarse{.flank_cells = 6, .fillet_cells = 2, .thickness_cells = 4, .root_cells = 1};
-    solved.planet_sector =
-        geometry::make_sector_mesh(problem.pair.pinion(), {.support_radius = problem.planet_bore_radius}, coarse);
+    solved.pinion_sector =
+        geometry::make_sector_mesh(problem.pair.pinion(), {.support_radius = problem.pinion_bore_radius}, coarse);
     solved.wheel_sector =
         geometry::make_sector_mesh(problem.pair.wheel(), {.support_radius = problem.wheel_support_radius}, coarse);
     return app::mesh_picture(problem, solved, "p");

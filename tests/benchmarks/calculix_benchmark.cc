@@ -55,11 +55,11 @@ Peer solve_with_calculix(const fem::LoadedMeshProblem& problem, const fem::Loade
       rolls.push_back(roll);
   const int touching = static_cast<int>(rolls.size());
   const benchmarks::Segment segment{-options.neighbours, touching - 1 + options.neighbours, 0, touching - 1};
-  auto planet = make_segment(flanks.pinion(), ours.planet_sector, bore, segment);
+  auto planet = make_segment(flanks.pinion(), ours.pinion_sector, bore, segment);
   auto wheel = make_segment(flanks.wheel(), ours.wheel_sector, outside, segment);
   ContactJob job;
   job.planet_axis = {problem.pair.centre_distance(), 0};
-  planet.place(flanks.planet_tooth_angle(rolls.front()), job.planet_axis);
+  planet.place(flanks.pinion_tooth_angle(rolls.front()), job.planet_axis);
   wheel.place(flanks.wheel_tooth_angle(rolls.front()), Eigen::Vector2d::Zero());
   job.planet = &planet;
   job.wheel = &wheel;

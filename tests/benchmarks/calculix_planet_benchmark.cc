@@ -155,7 +155,7 @@ class PlanetForces {
  private:
   [[nodiscard]] bool internal() const { return problem_.pair.internal(); }
   [[nodiscard]] Eigen::Vector2d turned(const Eigen::Vector2d& v) const {
-    return Eigen::Rotation2Dd(-position_.planet_angle) * v;
+    return Eigen::Rotation2Dd(-position_.pinion_angle) * v;
   }
   /// From 0 on.
   [[nodiscard]] int counted(int tooth) const { return (tooth % planet_.teeth() + planet_.teeth()) % planet_.teeth(); }
@@ -221,7 +221,7 @@ bool compare(const app::MeshModel& model, const fem::LoadedMeshResult& solved, d
   });
   require(found != solved.positions.end(), fmt::format("no position at the phase {}", phase));
   const auto& position = *found;
-  require(position.planet_stress.has_value(), "no stress");
+  require(position.pinion_stress.has_value(), "no stress");
   const auto& gear = problem.pair.pinion();
   const PlanetForces planet(problem, position);
   const auto own_forces = planet.own(), other_forces = planet.other();
@@ -231,11 +231,11 @@ bool compare(const app::MeshModel& model, const fem::LoadedMeshResult& solved, d
 
   benchmarks::PlanetJob job;
   job.body =
-      benchmarks::make_gear(geometry::ToothProfile(gear), solved.planet_sector, problem.planet_bore_radius, loaded);
+      benchmarks::make_gear(geometry::ToothProfile(gear), solved.pinion_sector, problem.pinion_bore_radius, loaded);
   const auto patches = static_cast<int>(position.rollers.size());
   const double spacing = 2 * std::numbers::pi / patches, stiffness = problem.planet_rollers->stiffness;
   job.bed = {patches, (spacing - gear.pitch_angle()) / 2, 4 * stiffness / patches, problem.planet_rollers->play};
-  job.material = problem.materials.planet;
+  job.material = problem.materials.pinion;
   job.face_width = problem.face_width;
   job.threads = options.threads;
   const auto own = on_nodes(job.body, own_forces), other = on_nodes(job.body, other_forces);
@@ -256,7 +256,7 @@ bool compare(const app::MeshModel& model, const fem::LoadedMeshResult& solved, d
     rollers = std::max(rollers, std::abs(position.rollers[i] - peer.rollers[i]) / largest);
   const auto [low, high] = std::minmax_element(peer.bore_stress.begin(), peer.bore_stress.end(),
                                                [](const auto& a, const auto& b) { return a.second < b.second; });
-  const auto& stress = *position.planet_stress;
+  const auto& stress = *position.pinion_stress;
   const double tension = stress.rim_tension / high->second - 1, compression = stress.rim_compression / low->second - 1;
   double deflection = 0;
   for (const auto& [node, force] : own) deflection += force.dot(peer.displacements.at(node)) / load / load;

@@ -25,10 +25,10 @@ BOOST_AUTO_TEST_SUITE(friction)
 using namespace annulus;
 using namespace annulus::dynamics;
 using annulus::test::Verification;
-using geometry::Driver;
 using geometry::Gear;
 using geometry::GearKind;
 using geometry::GearPair;
+using geometry::GearRole;
 
 namespace {
 
@@ -47,7 +47,7 @@ Ratios ratios_of(const GearPair& pair) {
 
 GearPair spur_pair() {
   using namespace geometry::test;
-  return {Gear(plain_gear(GearKind::external, 23)), Gear(plain_gear(GearKind::external, 41)), 64e-3, Driver::pinion};
+  return {Gear(plain_gear(GearKind::external, 23)), Gear(plain_gear(GearKind::external, 41)), 64e-3, GearRole::pinion};
 }
 
 /// A torsional pair with equal tooth pairs.
@@ -167,9 +167,9 @@ BOOST_AUTO_TEST_CASE(even_shares_of_spur_teeth) {
   Verification record("Tooth pairs that share the load evenly", "integrals over the path of contact");
   using namespace geometry::test;
   const GearPair pairs[] = {spur_pair(),
-                            {paper_planet(), paper_sun(), paper_centre_distance, Driver::pinion},
-                            {paper_planet(), paper_sun(), paper_centre_distance, Driver::wheel},
-                            {paper_planet(), paper_ring(), paper_centre_distance, Driver::pinion}};
+                            {paper_planet(), paper_sun(), paper_centre_distance, GearRole::pinion},
+                            {paper_planet(), paper_sun(), paper_centre_distance, GearRole::wheel},
+                            {paper_planet(), paper_ring(), paper_centre_distance, GearRole::pinion}};
   for (const auto& pair : pairs) {
     const auto [before, behind] = ratios_of(pair);
     const double ratio = before + behind, pitch = pair.pinion().base_pitch();
@@ -185,8 +185,8 @@ BOOST_AUTO_TEST_CASE(even_shares_of_spur_teeth) {
     const auto sliding = sliding_of(pair, even_shares(pair));
     const char* origin = "256 values where pairs change";
     record.close("mean distance from the pitch point", "m", sliding.distance.mean(), pitch * distance, 5e-3, origin);
-    record.near("mean side of the pitch point", "", sliding.side.mean(), pair.driver() == Driver::pinion ? side : -side,
-                5e-3, origin);
+    record.near("mean side of the pitch point", "", sliding.side.mean(),
+                pair.driver() == GearRole::pinion ? side : -side, 5e-3, origin);
     if (before < 0.1 || behind < 0.1) continue;
     BOOST_TEST(sliding.side(0.02) > 0.9);  // near the pitch point one pair carries
     BOOST_TEST(sliding.side(-0.02) < -0.9);
@@ -201,7 +201,7 @@ BOOST_AUTO_TEST_CASE(even_shares_of_helical_teeth) {
   auto pinion = helical(plain_gear(GearKind::external, 23), helix),
        wheel = helical(plain_gear(GearKind::external, 41), -helix);
   pinion.face_width = wheel.face_width = pi * pinion.module / std::sin(helix);
-  const GearPair pair(Gear(pinion), Gear(wheel), 64e-3 / std::cos(helix), Driver::pinion);
+  const GearPair pair(Gear(pinion), Gear(wheel), 64e-3 / std::cos(helix), GearRole::pinion);
   BOOST_TEST(std::abs(pair.overlap_ratio() - 1) < 1e-12);
   const auto [before, behind] = ratios_of(pair);
   const auto sliding = sliding_of(pair, even_shares(pair));

@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(contact_moves_from_the_root_of_the_driving_gear_to_its_tip)
   const double pitch = pair.pinion().base_pitch();
   const double by_pinion_tip = (pair.roll_length_high() - pair.roll_length_pitch()) / pitch,
                by_wheel_tip = (pair.roll_length_pitch() - pair.roll_length_low()) / pitch;
-  for (const auto driver : {annulus::geometry::Driver::pinion, annulus::geometry::Driver::wheel}) {
+  for (const auto driver : {annulus::geometry::GearRole::pinion, annulus::geometry::GearRole::wheel}) {
     problem.pair = {pair.pinion(), pair.wheel(), pair.centre_distance(), driver};
     const auto positions = solve_closed_form(problem, {}).positions;
     double enters = -1;
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(contact_moves_from_the_root_of_the_driving_gear_to_its_tip)
       };
       if (touching(positions[i]) == 2 && touching(positions[i - 1]) == 1) enters = positions[i].mesh_phase;
     }
-    const double before_pitch_point = driver == annulus::geometry::Driver::pinion ? by_wheel_tip : by_pinion_tip;
+    const double before_pitch_point = driver == annulus::geometry::GearRole::pinion ? by_wheel_tip : by_pinion_tip;
     record.near("phase at which the second pair enters", "mesh cycles", enters, 1 - before_pitch_point, 0.01,
                 "two of 256 positions, and the way over which a small load is taken up");
   }

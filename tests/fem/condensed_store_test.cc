@@ -67,7 +67,7 @@ void check_the_same(annulus::test::Verification& record, const LoadedMeshResult&
   int different = 0;
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
     const auto &p = a.positions[i], &q = b.positions[i];
-    different += differ(p.wheel_stress, q.wheel_stress) || differ(p.planet_stress, q.planet_stress) ||
+    different += differ(p.wheel_stress, q.wheel_stress) || differ(p.pinion_stress, q.pinion_stress) ||
                  p.pins.size() != q.pins.size();
     for (std::size_t pin = 0; pin < p.pins.size(); ++pin)
       different += p.pins[pin].radial_force != q.pins[pin].radial_force ||
@@ -169,14 +169,14 @@ BOOST_AUTO_TEST_CASE(what_a_tooth_depends_on_condenses_it_again) {
   changed.materials.wheel.youngs_modulus *= 1.01;
   count_teeth(record, "teeth condensed for another material of the ring",
               solve(changed, folder.store()).condensed_teeth, 2);
-  changed.materials.planet.youngs_modulus *= 1.01;
+  changed.materials.pinion.youngs_modulus *= 1.01;
   count_teeth(record, "teeth condensed for another material of the planet",
               solve(changed, folder.store()).condensed_teeth, 2);
   changed = problem;
   changed.wheel_support_radius += 1e-3;
   count_teeth(record, "teeth condensed for another ring", solve(changed, folder.store()).condensed_teeth, 2);
   changed = problem;
-  changed.planet_bore_radius -= 1e-3;
+  changed.pinion_bore_radius -= 1e-3;
   count_teeth(record, "teeth condensed for another planet", solve(changed, folder.store()).condensed_teeth, 2);
   LoadedMeshSettings cubic;
   cubic.level = 1;
@@ -258,7 +258,7 @@ BOOST_AUTO_TEST_CASE(the_folder_keeps_to_its_size) {
   const auto all = bytes();
   // Another material would need as much again.
   auto changed = problem;
-  changed.materials.planet.poisson_ratio = changed.materials.wheel.poisson_ratio = 0.28;
+  changed.materials.pinion.poisson_ratio = changed.materials.wheel.poisson_ratio = 0.28;
   const auto tight = std::make_shared<ResultStore>(folder.path(), "1", all);
   count_teeth(record, "teeth condensed for another material", solve(changed, tight).condensed_teeth, 4);
   record.at_most("size of the folder over its limit", "", static_cast<double>(bytes()) / static_cast<double>(all), 1,

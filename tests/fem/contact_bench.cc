@@ -30,7 +30,7 @@ ContactBench::ContactBench(const fem::LoadedMeshProblem& problem, int level, fem
 }
 
 void ContactBench::misalign(double misalignment) {
-  options_.gaps = {misalignment, problem_.planet_overhang.below, problem_.wheel_overhang.below};
+  options_.gaps = {misalignment, problem_.pinion_overhang.below, problem_.wheel_overhang.below};
   rebuild();
 }
 
@@ -41,7 +41,7 @@ void ContactBench::set_elements(int elements) {
 
 void ContactBench::rebuild() {
   system_ =
-      std::make_unique<fem::ContactSystem>(flanks_, *bodies_.planet, *bodies_.wheel, bodies_.supports.get(),
+      std::make_unique<fem::ContactSystem>(flanks_, *bodies_.pinion, *bodies_.wheel, bodies_.supports.get(),
                                            problem_.materials, bodies_.slice_edges, options_, bodies_.rollers.get());
   pairs_ = {};
   warm_ = {};

@@ -78,7 +78,7 @@ struct Solver {
       : problem(p),
         flanks(p.pair),
         bodies(build_bodies(p, flanks, {}, 1)),
-        system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), p.materials, bodies.slice_edges, {}) {}
+        system(flanks, *bodies.pinion, *bodies.wheel, bodies.supports.get(), p.materials, bodies.slice_edges, {}) {}
 };
 
 struct Place {

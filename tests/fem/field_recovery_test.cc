@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(a_ring_leans_on_its_pins) {
   const Solved solved(ring_mesh(paper_pins(24, 0.01), 4));
   const auto& supports = *solved.bodies.supports;
   const auto& body = solved.bodies.wheel->body();
-  const ContactSystem system(solved.flanks, *solved.bodies.planet, *solved.bodies.wheel, &supports,
+  const ContactSystem system(solved.flanks, *solved.bodies.pinion, *solved.bodies.wheel, &supports,
                              solved.problem.materials, solved.bodies.slice_edges, {});
   ContactSystem::PairsCache cache;
   ContactSystem::WarmStart warm;
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(stresses_of_the_field_are_those_of_the_surface) {
     const auto result = solve_loaded_mesh(problem, settings);
     BOOST_TEST_REQUIRE(result.fields.size() == 2U);
     for (const auto& field : result.fields) {
-      const bool planet = field.body == "planet";
+      const bool planet = field.body == annulus::geometry::GearRole::pinion;
       const auto& position = result.positions[field.position];
       const auto& gear = planet ? problem.pair.pinion() : problem.pair.wheel();
       BOOST_TEST(field.mesh.worst_scaled_jacobian() > 0.3);  // not turned inside out by the mirror
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(stresses_of_the_field_are_those_of_the_surface) {
                                : radius < form - 0.1 * module && radius > 0.998 * gear.root_radius();
         if (below) root = std::max(root, field.von_mises(v));
       }
-      const auto& surface = planet ? *position.planet_stress : *position.wheel_stress;
+      const auto& surface = planet ? *position.pinion_stress : *position.wheel_stress;
       record.close("von Mises stress", "Pa", root, surface.root_von_mises, 0.01, "vertices beside the largest");
       // Displacements are of the size of the transmission error.
       double largest = 0;

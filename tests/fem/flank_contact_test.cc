@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(the_two_gears_turn_in_the_ratio_of_their_teeth) {
     const FlankContact flanks(ring_paper_pair(internal));
     const auto& pair = flanks.pair();
     const double from = pair.roll_length_low(), to = pair.roll_length_high();
-    const double planet = flanks.planet_tooth_angle(to) - flanks.planet_tooth_angle(from);
+    const double planet = flanks.pinion_tooth_angle(to) - flanks.pinion_tooth_angle(from);
     const double wheel = flanks.wheel_tooth_angle(to) - flanks.wheel_tooth_angle(from);
     BOOST_TEST(planet == (to - from) / pair.pinion().base_radius(), boost::test_tools::tolerance(1e-12));
     const double ratio = static_cast<double>(pair.pinion().teeth()) / pair.wheel().teeth() * (internal ? 1 : -1);
@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(neighbouring_teeth_touch_one_base_pitch_apart) {
     const FlankContact flanks(ring_paper_pair(internal));
     const auto& pair = flanks.pair();
     const double roll = pair.roll_length_pitch(), next = roll + pair.pinion().base_pitch();
-    BOOST_TEST(flanks.planet_tooth_angle(next) - flanks.planet_tooth_angle(roll) == pair.pinion().pitch_angle(),
+    BOOST_TEST(flanks.pinion_tooth_angle(next) - flanks.pinion_tooth_angle(roll) == pair.pinion().pitch_angle(),
                boost::test_tools::tolerance(1e-12));
   }
 }
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(the_matched_point_lies_on_the_wheel_flank_at_the_stated_gap
       const double roll = domain.low + (domain.high - domain.low) * i / 20;
       const auto match = flanks.match(roll, contact);
       // In the frame of the solve: planet at (a, 0), wheel at the origin.
-      const Eigen::Rotation2Dd planet(flanks.planet_tooth_angle(contact));
+      const Eigen::Rotation2Dd planet(flanks.pinion_tooth_angle(contact));
       const Eigen::Vector2d point = planet * flanks.pinion().flank_point(roll) +
                                     Eigen::Vector2d(flanks.pair().centre_distance(), 0) +
                                     match.gap * (planet * flanks.pinion().flank_normal(roll));

@@ -41,7 +41,7 @@ void on_every_flank(const F& f) {
   }();
   for (const auto& bench : benches) {
     const auto& pair = bench->flanks().pair();
-    f(Flank{*bench->bodies().planet, pair.pinion().base_radius()});
+    f(Flank{*bench->bodies().pinion, pair.pinion().base_radius()});
     f(Flank{*bench->bodies().wheel, pair.wheel().base_radius()});
   }
 }

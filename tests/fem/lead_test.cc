@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(misaligned_teeth_carry_like_a_row_of_springs) {
       bench.misalign(misalignment);
       const auto position = bench.solve(phase, force);
       const double found = factor_of(resultant_place(position)),
-                   slices = static_cast<double>(bench.bodies().planet->slices());
+                   slices = static_cast<double>(bench.bodies().pinion->slices());
       const double excess = (found - 1) / (expected - 1) - 1;
       const auto lifted = std::count(position.line_load.begin(), position.line_load.end(), 0.0);
       // Mean over the most loaded slice.

@@ -25,7 +25,7 @@ LoadedMeshProblem twins(const MeshMaterials& materials) {
   LoadedMeshProblem problem{GearPair(gear, gear, 0.06)};
   problem.materials = materials;
   problem.face_width = 0.02;
-  problem.planet_bore_radius = problem.wheel_support_radius = 0.012;
+  problem.pinion_bore_radius = problem.wheel_support_radius = 0.012;
   problem.loads = {20};
   problem.phases = 16;
   return problem;

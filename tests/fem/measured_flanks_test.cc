@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(measured_flanks_that_change_along_the_face_load_it_as_lead_
   // The planet is wider than the sun: its flanks begin 4 mm below it and end 2 mm above it.
   auto problem = sun_mesh(2);
   problem.face_width -= 6e-3;
-  problem.planet_overhang = {4e-3, 2e-3};
+  problem.pinion_overhang = {4e-3, 2e-3};
   auto modified = problem.pair.pinion().parameters(), measured = modified;
   modified.lead_crowning = 10e-6;
   modified.lead_slope = 24e-6;

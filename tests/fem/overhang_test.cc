@@ -25,7 +25,7 @@ LoadedMeshProblem narrow(LoadedMeshProblem problem) {
 }
 
 LoadedMeshProblem wider(LoadedMeshProblem problem, double below, double above) {
-  problem.planet_overhang = {below, above};
+  problem.pinion_overhang = {below, above};
   return problem;
 }
 
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(faces_apart_by_a_twentieth_are_within_the_error_of_the_plan
   const auto even = narrow(sun_mesh(2));
   auto apart = even;
   apart.face_width *= 0.95;
-  apart.planet_overhang = {0.05 * width, 0};
+  apart.pinion_overhang = {0.05 * width, 0};
   apart.wheel_overhang = {0, 0.05 * width};
   const double gain = solid_lte(even) / solid_lte(apart) / 0.95 - 1;  // per width of the common face
   BOOST_TEST_MESSAGE("stiffer by " << gain << " per width");
@@ -144,10 +144,10 @@ BOOST_AUTO_TEST_CASE(lead_modifications_begin_at_the_ends_of_their_gear) {
   auto problem = with_planet_lead(sun_mesh(2), 0, 30e-6);
   const auto parameters = problem.pair.pinion().parameters();
   problem.face_width = parameters.face_width - 30e-3;
-  problem.planet_overhang = {10e-3, 20e-3};
+  problem.pinion_overhang = {10e-3, 20e-3};
   const annulus::fem::FlankContact flanks(problem.pair);
   const annulus::fem::ContactFace face(flanks, {0, problem.face_width},
-                                       {0, problem.planet_overhang.below, problem.wheel_overhang.below});
+                                       {0, problem.pinion_overhang.below, problem.wheel_overhang.below});
   const double middle = 10e-3 + problem.face_width / 2;
   record.close("mean gap", "m", face.lead_gap(0), 30e-6 * middle / parameters.face_width, 1e-12, "rounding");
   record.close("smallest gap", "m", face.smallest_lead_gap(0), 30e-6 * 10e-3 / parameters.face_width, 1e-12,

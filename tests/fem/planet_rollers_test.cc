@@ -33,7 +33,7 @@ constexpr double bearing = 1e9;  // N/m
 LoadedMeshProblem on_rollers(LoadedMeshProblem problem, double rim, double play, double stiffness = bearing) {
   const bool ring = problem.pair.internal();
   const auto& planet = problem.pair.pinion();
-  problem.planet_bore_radius = planet.root_radius() - rim * planet.parameters().module;
+  problem.pinion_bore_radius = planet.root_radius() - rim * planet.parameters().module;
   problem.planet_rollers =
       annulus::fem::PlanetRollers{stiffness, play, ring ? sun_mesh(4).pair : ring_mesh(OutsideHeld{}, 4).pair};
   return problem;
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(the_bed_carries_both_meshes) {
         Eigen::Vector2d bed = Eigen::Vector2d::Zero();
         for (std::size_t i = 0; i < position.rollers.size(); ++i) {
           const double spacing = 2 * M_PI / static_cast<double>(position.rollers.size());
-          const double angle = position.planet_angle + (static_cast<double>(i) + 0.5) * spacing -
+          const double angle = position.pinion_angle + (static_cast<double>(i) + 0.5) * spacing -
                                problem.pair.pinion().pitch_angle() / 2;
           BOOST_TEST(position.rollers[i] >= 0);
           bed += position.rollers[i] * Eigen::Vector2d(std::cos(angle), std::sin(angle));
@@ -97,7 +97,7 @@ struct WholePlanet {
 
 WholePlanet whole_planet(const ContactBench& bench, const LoadedMeshProblem& problem, std::size_t patch_count) {
   const annulus::geometry::ToothProfile profile(problem.pair.pinion());
-  const double pitch = problem.pair.pinion().pitch_angle(), bore = problem.planet_bore_radius;
+  const double pitch = problem.pair.pinion().pitch_angle(), bore = problem.pinion_bore_radius;
   const auto project = [&](annulus::geometry::Boundary boundary, const Eigen::Vector2d& point) -> Eigen::Vector2d {
     const Eigen::Rotation2Dd turn(pitch * std::round(std::atan2(point.y(), point.x()) / pitch));
     return turn * profile.project(boundary, turn.inverse() * point, bore);
@@ -105,7 +105,7 @@ WholePlanet whole_planet(const ContactBench& bench, const LoadedMeshProblem& pro
   const int teeth = problem.pair.pinion().teeth();
   WholePlanet planet;
   planet.body =
-      discretise_body(repeat(bench.bodies().planet_source.mesh, teeth, teeth), project, problem.materials.planet, 1);
+      discretise_body(repeat(bench.bodies().pinion_source.mesh, teeth, teeth), project, problem.materials.pinion, 1);
   const auto& b = planet.body;
   const auto nodes = b.boundary_nodes(annulus::geometry::Boundary::support);
   const auto rows = b.stiffness.rows();
@@ -181,14 +181,14 @@ BOOST_AUTO_TEST_CASE(the_whole_planet_as_one_matrix) {
     const auto& b = planet.body;
     const double width = problem.face_width;
     Eigen::VectorXd load = Eigen::VectorXd::Zero(b.stiffness.rows());
-    for (const auto& tooth : forces.planet) add_ports(planet, bench.bodies().planet->body(), tooth, load);
+    for (const auto& tooth : forces.pinion) add_ports(planet, bench.bodies().pinion->body(), tooth, load);
     const Eigen::VectorXd own = load / nominal_load;
     // The line of action of the other mesh: tangent to the base circle, on the other side of the planet. Its force acts
     // on the flank where that line meets it: found as the node of another flank whose normal is along it, and nearest.
     const double other = problem.planet_rollers->partner.working_pressure_angle(), sign = ring ? -1 : 1;
     Eigen::Vector2d along(ring ? std::sin(other) : -std::sin(other), sign * std::cos(other));
     // In the frame of tooth 0.
-    along = Eigen::Rotation2Dd(-position.planet_angle) * Eigen::Vector2d(along);
+    along = Eigen::Rotation2Dd(-position.pinion_angle) * Eigen::Vector2d(along);
     const double base = problem.pair.pinion().base_radius();
     // In both frames its moment about the axis is counter-clockwise.
     const Eigen::Vector2d foot = base * Eigen::Vector2d(along.y(), -along.x());
@@ -299,9 +299,9 @@ BOOST_AUTO_TEST_CASE(a_stiff_planet_is_one_on_a_hub) {
   for (const bool ring : {false, true})
     for (const double play : {0.0, 30e-6}) {
       auto hub = mesh(ring);
-      hub.materials.planet.youngs_modulus *= 1e5;
+      hub.materials.pinion.youngs_modulus *= 1e5;
       auto rollers = on_rollers(hub, 3, play);
-      hub.planet_bore_radius = rollers.planet_bore_radius;
+      hub.pinion_bore_radius = rollers.pinion_bore_radius;
       ContactBench a(hub, 1), b(rollers, 1);
       for (const double load : {0.2 * nominal_load, nominal_load}) {
         const auto held = a.solve(0.4, load), rolling = b.solve(0.4, load);
@@ -333,14 +333,14 @@ BOOST_AUTO_TEST_CASE(the_meshes_of_a_planet_deflect_each_other_equally) {
   for (const auto& [rim, play] : {std::pair{1.5, 0.0}, {1.5, 15e-6}, {2.5, 0.0}}) {
     ContactBench sun(on_rollers(mesh(false), rim, play), 1), ring(on_rollers(mesh(true), rim, play), 1);
     const double pitch = mesh(false).pair.pinion().pitch_angle();
-    const double start = ring.solve(0, nominal_load).planet_angle,
-                 per_cycle = 4 * std::remainder(ring.solve(0.25, nominal_load).planet_angle - start, pitch);
+    const double start = ring.solve(0, nominal_load).pinion_angle,
+                 per_cycle = 4 * std::remainder(ring.solve(0.25, nominal_load).pinion_angle - start, pitch);
     BOOST_TEST(std::abs(std::abs(per_cycle) - pitch) < 1e-9);
     for (const double phase : {0.05, 0.3, 0.55, 0.8}) {
       const auto of_sun = sun.solve(phase, nominal_load);
-      const double same = (-of_sun.planet_angle - start) / per_cycle;
+      const double same = (-of_sun.pinion_angle - start) / per_cycle;
       const auto of_ring = ring.solve(same - std::floor(same), nominal_load);
-      BOOST_TEST(std::abs(std::remainder(of_sun.planet_angle + of_ring.planet_angle, pitch)) < 1e-9);
+      BOOST_TEST(std::abs(std::remainder(of_sun.pinion_angle + of_ring.pinion_angle, pitch)) < 1e-9);
       worst = std::max(
           worst, std::abs(of_sun.partner_compliance - of_ring.partner_compliance) * of_sun.entry.stiffness_tangent);
       largest = std::max(largest, of_sun.partner_compliance * of_sun.entry.stiffness_tangent);

@@ -57,7 +57,7 @@ struct PinnedRing {
   static annulus::fem::RingFlexibility flexibility_of(const LoadedMeshProblem& problem,
                                                       const annulus::fem::SupportPlan& plan) {
     const annulus::geometry::ToothProfile profile(problem.pair.wheel());
-    const annulus::fem::BodyPlan body(problem, profile, annulus::fem::BodyPlan::Role::wheel,
+    const annulus::fem::BodyPlan body(problem, profile, annulus::geometry::GearRole::wheel,
                                       annulus::geometry::Boundary::trailing_flank, 2,
                                       annulus::fem::BodyPlan::Dimension::plane, {problem.face_width, false});
     annulus::fem::RingFlexibilityOptions options;

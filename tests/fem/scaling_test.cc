@@ -32,10 +32,10 @@ fem::LoadedMeshProblem ring_problem(const fem::RingStructure& structure, const U
   fem::LoadedMeshProblem problem{geometry::GearPair(geometry::Gear(gear(geometry::GearKind::external, 24, units)),
                                                     geometry::Gear(ring), 96e-3 * units.length),
                                  {}};
-  for (auto* material : {&problem.materials.planet, &problem.materials.wheel})
+  for (auto* material : {&problem.materials.pinion, &problem.materials.wheel})
     material->youngs_modulus *= units.pressure;
   problem.face_width = ring.face_width;
-  problem.planet_bore_radius = 22e-3 * units.length;
+  problem.pinion_bore_radius = 22e-3 * units.length;
   problem.wheel_support_radius = 165e-3 * units.length;
   problem.structure = structure;
   problem.loads = {3000 * units.pressure * units.length * units.length};

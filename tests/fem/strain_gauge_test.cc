@@ -74,13 +74,15 @@ BOOST_AUTO_TEST_CASE(a_short_gauge_shows_the_stress_of_its_place) {
                                      "plane strain: (1 - nu^2)/E times the recovered stress of the same place");
   auto problem = ring_mesh(paper_pins(18, first_pin), 4);
   const auto without = solved(problem);
-  const auto curve = [&](const std::string& name) {
-    const auto found = std::find_if(without.stress_curves.begin(), without.stress_curves.end(),
-                                    [&](const auto& c) { return c.name == name; });
+  using Along = annulus::fem::StressCurve::Along;
+  const auto curve = [&](Along along) {
+    const auto found = std::find_if(without.stress_curves.begin(), without.stress_curves.end(), [&](const auto& c) {
+      return c.body == annulus::geometry::GearRole::wheel && c.along == along;
+    });
     BOOST_REQUIRE(found != without.stress_curves.end());
     return *found;
   };
-  const auto rim = curve("wheel rim"), root = curve("wheel root");
+  const auto rim = curve(Along::rim), root = curve(Along::root);
   // Points of the curves, on either side of their peaks.
   const auto peak = [](const annulus::fem::StressCurve& c) {
     return std::max_element(c.von_mises.begin(), c.von_mises.end()) - c.von_mises.begin();
@@ -127,8 +129,8 @@ BOOST_AUTO_TEST_CASE(a_long_gauge_shows_how_far_its_ends_move_apart) {
                                      "elongation of the surface by the displacements of its points");
   auto problem = ring_mesh(paper_pins(18, first_pin), 4);
   const auto without = solved(problem);
-  const auto& field =
-      *std::find_if(without.fields.begin(), without.fields.end(), [](const auto& f) { return f.body == "wheel"; });
+  const auto& field = *std::find_if(without.fields.begin(), without.fields.end(),
+                                    [](const auto& f) { return f.body == annulus::geometry::GearRole::wheel; });
   // Vertices on the outside, by their angle.
   struct Point {
     double angle;

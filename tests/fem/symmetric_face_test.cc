@@ -76,7 +76,7 @@ std::vector<Solved> solve(const LoadedMeshProblem& problem, int degree, bool sym
   annulus::fem::ContactOptions options;
   options.elements = 6;
   options.half_face = bodies.face.half;
-  const annulus::fem::ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(),
+  const annulus::fem::ContactSystem system(flanks, *bodies.pinion, *bodies.wheel, bodies.supports.get(),
                                            problem.materials, bodies.slice_edges, options);
   std::vector<Solved> results;
   for (const double phase : phases) {
@@ -84,7 +84,7 @@ std::vector<Solved> solve(const LoadedMeshProblem& problem, int degree, bool sym
     annulus::fem::ContactSystem::WarmStart warm;
     annulus::fem::ContactForces forces;
     Solved result{system.solve(0, phase, nominal_load, cache, warm, &forces), {}};
-    result.stresses = figures(bodies.planet_stress->stresses(forces.planet, {}).largest);
+    result.stresses = figures(bodies.pinion_stress->stresses(forces.pinion, {}).largest);
     const auto wheel = figures(bodies.wheel_stress->stresses(forces.wheel, forces.supports).largest);
     result.stresses.insert(result.stresses.end(), wheel.begin(), wheel.end());
     results.push_back(std::move(result));
@@ -200,7 +200,7 @@ BOOST_AUTO_TEST_CASE(a_result_on_half_of_the_face_is_one_of_the_whole) {
   for (std::size_t i = 0; i < half.positions.size(); ++i) {
     const auto &p = half.positions[i], &q = whole.positions[i];
     worst = std::max({worst, largest_difference(p, q), difference({p.entry.error_relative}, {q.entry.error_relative})});
-    BOOST_TEST(p.planet_stress.has_value() == q.planet_stress.has_value());
+    BOOST_TEST(p.pinion_stress.has_value() == q.pinion_stress.has_value());
     if (p.wheel_stress) worst = std::max(worst, difference(figures(*p.wheel_stress), figures(*q.wheel_stress)));
   }
   BOOST_TEST_MESSAGE("largest difference " << worst);
@@ -210,7 +210,7 @@ BOOST_AUTO_TEST_CASE(a_result_on_half_of_the_face_is_one_of_the_whole) {
   BOOST_TEST(difference(half.slice_edges, whole.slice_edges) < 1e-12);
   record.close("volume of the wheel's tooth", "m^3", half.wheel_sector.area_or_volume(),
                whole.wheel_sector.area_or_volume(), 1e-12, "rounding");
-  BOOST_TEST(half.planet_sector.cells.size() == whole.planet_sector.cells.size());
+  BOOST_TEST(half.pinion_sector.cells.size() == whole.pinion_sector.cells.size());
   BOOST_TEST(half.stress_curves.size() == whole.stress_curves.size());
   for (std::size_t i = 0; i < half.stress_curves.size(); ++i)
     BOOST_TEST(difference(half.stress_curves[i].von_mises, whole.stress_curves[i].von_mises) < round_off);
@@ -287,7 +287,7 @@ struct HalfSector {
   annulus::geometry::ToothProfile profile{problem.pair.wheel()};
   annulus::fem::BodyPlan plan{problem,
                               profile,
-                              annulus::fem::BodyPlan::Role::wheel,
+                              annulus::geometry::GearRole::wheel,
                               annulus::geometry::Boundary::trailing_flank,
                               1,
                               annulus::fem::BodyPlan::Dimension::solid,

@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(back_flanks_follow_by_the_tooth_thickness) {
                                      "a pitch holds one tooth of each gear and the backlash; turned outlines");
   for (const GearPair& mesh : {GearPair(paper_planet(), paper_sun(), paper_centre_distance),
                                GearPair(paper_planet(), paper_ring(), paper_centre_distance)}) {
-    const Driver other = mesh.driver() == Driver::pinion ? Driver::wheel : Driver::pinion;
+    const GearRole other = mesh.driver() == GearRole::pinion ? GearRole::wheel : GearRole::pinion;
     const GearPair reversed(mesh.pinion(), mesh.wheel(), mesh.centre_distance(), other);
     const double backlash = mesh.normal_backlash() / mesh.pinion().base_pitch();
     record.near("phases with either gear driving, and the backlash", "mesh cycles",
@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(back_flanks_follow_by_the_tooth_thickness) {
     const double radius = mesh.pinion().base_radius() / std::cos(mesh.working_pressure_angle());
     const Eigen::Vector2d flank = planet.flank_point(planet.roll_length_at(radius));
     const double thickness = 2 * std::abs(std::atan2(flank.y(), flank.x())) / mesh.pinion().pitch_angle();
-    const GearPair driving(mesh.pinion(), mesh.wheel(), mesh.centre_distance(), Driver::pinion);
+    const GearPair driving(mesh.pinion(), mesh.wheel(), mesh.centre_distance(), GearRole::pinion);
     record.near("phase of a driving planet", "mesh cycles", driving.back_flank_phase(), thickness, 1e-12, "rounding");
   }
 }

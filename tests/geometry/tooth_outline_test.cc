@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(contact_points_lie_on_both_flanks) {
     const double pitch = pair.centre_distance() * ratio / (pair.internal() ? ratio - 1 : ratio + 1);
     const Eigen::Vector2d c = line.tangent + pair.roll_length_pitch() * line.along;
     record.at_most("distance from the pitch point", "m", (c - Eigen::Vector2d(pitch, 0)).norm(), 1e-12, "rounding");
-    const auto planet = whole(pair.pinion(), centre, stand.planet, fine);
+    const auto planet = whole(pair.pinion(), centre, stand.pinion, fine);
     const auto wheel = whole(pair.wheel(), {0, 0}, stand.wheel, fine);
     // One base pitch further the next pair touches.
     for (const int k : {-1, 0, 1}) {

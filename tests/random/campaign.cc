@@ -71,15 +71,16 @@ class Campaign {
   /// Whether the pair is worth looking at.
   bool note(const RandomScene& scene, const Relation& relation, const SceneRun& first, const SceneRun& second) {
     const std::lock_guard lock(mutex_);
-    auto& tally = result_.relations[relation.name];
-    ++tally.tried;
+    PairTally* const tallies[] = {&result_.relations[relation.name],
+                                  &result_.systems[fmt::format("{}, {}", scene.kind, scene.model)]};
+    for (auto* tally : tallies) ++tally->tried;
     for (const auto* run : {&first, &second}) {
       if (run->outcome == Outcome::right) {
         result_.costs.push_back(run->cost);
         result_.costs.back().seed = scene.seed;
         continue;
       }
-      ++tally.outcomes[run->outcome];
+      for (auto* tally : tallies) ++tally->outcomes[run->outcome];
       if (run->outcome == Outcome::refused || run->outcome == Outcome::too_expensive ||
           run->outcome == Outcome::over_limit)
         return false;
@@ -96,11 +97,8 @@ class Campaign {
       worst = fmt::format("{}: {} and {}, allowed difference {:.2g}, {:.3g} times that", r.key, r.first, r.second,
                           r.allowed, largest);
     }
-    if (worst.empty()) {
-      ++tally.agreed;
-      return false;
-    }
-    ++tally.disagreed;
+    for (auto* tally : tallies) ++(worst.empty() ? tally->agreed : tally->disagreed);
+    if (worst.empty()) return false;
     complain(scene, relation, worst);
     return true;
   }
@@ -171,12 +169,14 @@ bool passes(const CampaignResult& result) {
   return true;
 }
 
-std::string campaign_text(const CampaignResult& result) {
-  std::string text =
-      "| relation | tried | agree | differ | refused | too expensive | over the limit | failed | crashed | timed out "
-      "|\n"
-      "|---|---|---|---|---|---|---|---|---|---|\n";
-  for (const auto& [name, tally] : result.relations) {
+namespace {
+
+std::string tally_table(const char* of, const std::map<std::string, PairTally>& tallies) {
+  std::string text = fmt::format(
+      "| {} | tried | agree | differ | refused | too expensive | over the limit | failed | crashed | timed out |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n",
+      of);
+  for (const auto& [name, tally] : tallies) {
     text += fmt::format("| {} | {} | {} | {} |", name, tally.tried, tally.agreed, tally.disagreed);
     for (const auto outcome : {Outcome::refused, Outcome::too_expensive, Outcome::over_limit, Outcome::failed,
                                Outcome::crashed, Outcome::timed_out}) {
@@ -185,6 +185,14 @@ std::string campaign_text(const CampaignResult& result) {
     }
     text += "\n";
   }
+  return text;
+}
+
+}  // namespace
+
+std::string campaign_text(const CampaignResult& result) {
+  std::string text =
+      tally_table("relation", result.relations) + "\n" + tally_table("system, wanted model", result.systems);
   for (const auto& [relation, results] : result.results) {
     text += fmt::format(
         "\n{}: difference over what is allowed\n\n| result | values | within | median | 95 % | largest |\n"

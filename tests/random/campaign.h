@@ -22,8 +22,8 @@ struct CampaignSettings {
   std::filesystem::path table{};         ///< file for the tables, written anew after every scene; empty: none
 };
 
-/// What came of the pairs of one relation.
-struct RelationTally {
+/// What came of the pairs of one relation, or of one system and model.
+struct PairTally {
   int tried = 0, agreed = 0, disagreed = 0;
   std::map<Outcome, int> outcomes;  ///< of runs that were not right
 };
@@ -36,7 +36,7 @@ struct ResultTally {
 };
 
 struct CampaignResult {
-  std::map<std::string, RelationTally> relations;
+  std::map<std::string, PairTally> relations, systems;                ///< by relation; by kind and wanted model
   std::map<std::string, std::map<std::string, ResultTally>> results;  ///< by relation and key
   std::vector<std::string> complaints;                                ///< what is wrong, with its seed
   std::vector<Cost> costs;

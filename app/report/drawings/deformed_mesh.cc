@@ -66,22 +66,22 @@ std::vector<std::array<std::uint32_t, 4>> faces_around(const fem::BodyField& fie
   return faces_of(mesh, first * cells, (last - first + 1) * cells);
 }
 
-/// Angles of both bodies' tooth 0 from the line of centres, and how the planet's displacement closes the mesh, in the
+/// Angles of both bodies' tooth 0 from the line of centres, and how the pinion's displacement closes the mesh, in the
 /// frame of geometry::pair_places.
 struct MeshPlaces {
-  double planet = 0, wheel = 0;  ///< rad
-  double planet_rotation = 0;    ///< rad, under the load
+  double pinion = 0, wheel = 0;  ///< rad
+  double pinion_rotation = 0;    ///< rad, under the load
 };
 MeshPlaces mesh_places(const geometry::GearPair& pair, const fem::LoadedPosition& position) {
   MeshPlaces places;
   // The pitch point lies on the line of centres.
   places.wheel = -position.ring_angle;
-  // With its leading flank a driver turns counter-clockwise; the planet drives a ring with its trailing flank.
-  const bool counter_clockwise = !pair.internal() && pair.driver() == geometry::Driver::pinion;
-  places.planet = geometry::pair_places(pair).planet +
+  // With its leading flank a driver turns counter-clockwise; the pinion drives a ring with its trailing flank.
+  const bool counter_clockwise = !pair.internal() && pair.driver() == geometry::GearRole::pinion;
+  places.pinion = geometry::pair_places(pair).pinion +
                   (counter_clockwise ? 1 : -1) * position.mesh_phase * pair.pinion().pitch_angle();
   const double deflection = position.entry.lte - position.entry.unloaded_te;
-  places.planet_rotation = (pair.internal() ? -1 : 1) * deflection / pair.pinion().base_radius();
+  places.pinion_rotation = (pair.internal() ? -1 : 1) * deflection / pair.pinion().base_radius();
   return places;
 }
 
@@ -136,14 +136,14 @@ std::vector<std::array<Eigen::Vector3d, 2>> outline(const DeformedMesh& view) {
 
 }  // namespace
 
-DeformedMesh deformed_mesh(const fem::BodyField& planet, const fem::BodyField& wheel,
+DeformedMesh deformed_mesh(const fem::BodyField& pinion, const fem::BodyField& wheel,
                            const fem::LoadedPosition& position, const geometry::GearPair& pair,
                            const std::string& name) {
   DeformedMesh view{.name = name,
                     .solid = wheel.mesh.dimension == 3,
                     .mesh_phase = position.mesh_phase,
                     .ring_tooth = position.ring_tooth};
-  if (planet.mesh.cells.empty() || wheel.mesh.cells.empty()) return view;
+  if (pinion.mesh.cells.empty() || wheel.mesh.cells.empty()) return view;
   const auto places = mesh_places(pair, position);
   const Eigen::Matrix3d axes = page_axes(wheel.mesh.dimension);
   Eigen::AlignedBox3d box;
@@ -168,7 +168,7 @@ DeformedMesh deformed_mesh(const fem::BodyField& planet, const fem::BodyField& w
       }
   };
   add(wheel, places.wheel, 0, 0);
-  add(planet, places.planet, pair.centre_distance(), places.planet_rotation);
+  add(pinion, places.pinion, pair.centre_distance(), places.pinion_rotation);
   // About a fiftieth of the bodies.
   view.exaggeration = round_below(0.02 * box.sizes().maxCoeff() / std::max(view.largest_displacement_mm, 1e-12));
   view.top_MPa = colour_top(view.stress_MPa);

@@ -26,10 +26,10 @@ struct DeformedMesh {
   int ring_tooth = 0;
 };
 
-/// Both bodies of a pair as they stand at this position, the planet above the wheel. To the displacement of the planet
+/// Both bodies of a pair as they stand at this position, the pinion above the wheel. To the displacement of the pinion
 /// belongs its rotation by the deflection of the mesh: where flanks touch, they touch at every exaggeration. Without
 /// faces when a field has no cells.
-[[nodiscard]] DeformedMesh deformed_mesh(const fem::BodyField& planet, const fem::BodyField& wheel,
+[[nodiscard]] DeformedMesh deformed_mesh(const fem::BodyField& pinion, const fem::BodyField& wheel,
                                          const fem::LoadedPosition& position, const geometry::GearPair& pair,
                                          const std::string& name);
 

@@ -53,20 +53,20 @@ std::string teeth(const Mesh& sector, const TeethCopies& copies, int each_side, 
 std::string plane_picture(const fem::LoadedMeshProblem& problem, const fem::LoadedMeshResult& solved,
                           const std::string& name) {
   const auto& pair = problem.pair;
-  const auto &planet = pair.pinion(), &wheel = pair.wheel();
+  const auto &pinion = pair.pinion(), &wheel = pair.wheel();
   const double centre = pair.centre_distance(), support = problem.wheel_support_radius;
-  const auto [planet_first, wheel_first] = geometry::pair_places(pair);  // pitch-point contact
+  const auto [pinion_first, wheel_first] = geometry::pair_places(pair);  // pitch-point contact
   const double wheel_pitch = wheel.base_radius() / std::cos(pair.working_pressure_angle());
 
   constexpr int each_side = 4;
   const double half_width = 3.4 * wheel.pitch_angle() * wheel_pitch;
-  const double low = pair.internal() ? centre + problem.planet_bore_radius : support;
-  const double high = pair.internal() ? support : centre - problem.planet_bore_radius;
+  const double low = pair.internal() ? centre + problem.pinion_bore_radius : support;
+  const double high = pair.internal() ? support : centre - problem.pinion_bore_radius;
   const double margin = support_margin(problem.structure, support);
-  const double pen = planet.parameters().module / (3.8 * units::mm);  // lines as thick for the eye, whatever the size
+  const double pen = pinion.parameters().module / (3.8 * units::mm);  // lines as thick for the eye, whatever the size
   std::string text =
       teeth(solved.wheel_sector, {"wheel-" + name, wheel_fill, wheel.pitch_angle(), wheel_first, 0}, each_side, pen);
-  text += teeth(solved.planet_sector, {"planet-" + name, planet_fill, planet.pitch_angle(), planet_first, centre},
+  text += teeth(solved.pinion_sector, {"planet-" + name, planet_fill, pinion.pitch_angle(), pinion_first, centre},
                 each_side, pen);
   const double reach = (each_side + 0.5) * wheel.pitch_angle();
   text += pair.internal() ? drawn_supports(mesh_page, problem.structure, support, wheel_first, reach)

@@ -30,15 +30,15 @@ Window window_of(const geometry::GearPair& pair) {
   const double cosine = std::cos(pair.working_pressure_angle());
   const double wheel_base = pair.wheel().base_radius(), pitch = wheel_base / cosine;
   const double module = pair.pinion().parameters().module;
-  const double planet_base = pair.pinion().base_radius();
-  const double other = pair.internal() ? pair.centre_distance() + planet_base : pair.centre_distance() - planet_base;
+  const double pinion_base = pair.pinion().base_radius();
+  const double other = pair.internal() ? pair.centre_distance() + pinion_base : pair.centre_distance() - pinion_base;
   const double half = pitches * pair.wheel().pitch_angle() * pitch;
   return {std::max(std::min({pitch - modules * module, wheel_base - air * module, other - air * module}), pitch - half),
           std::min(std::max({pitch + modules * module, wheel_base + air * module, other + air * module}), pitch + half),
           half};
 }
 
-/// Roll lengths of the planet at which teeth touch while one pair touches in the pitch point.
+/// Roll lengths of the pinion at which teeth touch while one pair touches in the pitch point.
 std::vector<double> contacts(const geometry::GearPair& pair) {
   const double pitch = pair.pinion().base_pitch();
   std::vector<double> rolls;
@@ -71,7 +71,7 @@ std::string action(const DrawingPage& page, const geometry::GearPair& pair, cons
 /// In rows from `y` on; what is drawn has a sample in front.
 std::string teeth_legend(const TeethInMesh& drawing, const geometry::GearPair& pair, double y, double scale) {
   const auto diameters = [&](double factor) {
-    return fmt::format("⌀ {} ({}), ⌀ {} ({})", mm_text(2 * factor * pair.pinion().base_radius()), drawing.planet_name,
+    return fmt::format("⌀ {} ({}), ⌀ {} ({})", mm_text(2 * factor * pair.pinion().base_radius()), drawing.pinion_name,
                        mm_text(2 * factor * pair.wheel().base_radius()), drawing.wheel_name);
   };
   std::string text;
@@ -97,14 +97,14 @@ std::string to_svg(const TeethInMesh& drawing, const geometry::GearPair& pair) {
   const double scale = teeth_width / (2 * window.half_width), height = scale * (window.high - window.low);
   const DrawingPage page{scale, {0.5 * teeth_width, scale * window.high}};
   const Eigen::Vector2d axis(0, 0), centre(pair.centre_distance(), 0);
-  const auto [planet_angle, wheel_angle] = geometry::pair_places(pair);
-  const DrawnGear planet{.gear = pair.pinion(), .id = drawing.id + "-planet", .fill = planet_fill};
+  const auto [pinion_angle, wheel_angle] = geometry::pair_places(pair);
+  const DrawnGear pinion{.gear = pair.pinion(), .id = drawing.id + "-pinion", .fill = planet_fill};
   const DrawnGear wheel{.gear = pair.wheel(),
                         .id = drawing.id + "-wheel",
                         .fill = pair.internal() ? wheel_fill : sun_fill,
                         .outside_radius = drawing.wheel_outside_radius};
   std::string shown = gear_defs(page, wheel) + placed_gear(page, wheel, axis, wheel_angle);
-  shown += gear_defs(page, planet) + placed_gear(page, planet, centre, planet_angle);
+  shown += gear_defs(page, pinion) + placed_gear(page, pinion, centre, pinion_angle);
   for (const auto& [where, gear] : {std::pair{centre, pair.pinion()}, {axis, pair.wheel()}}) {
     shown += page.circle(where, gear.base_radius(), base_circle_style);
     shown += page.circle(where, gear.base_radius() / std::cos(pair.working_pressure_angle()), pitch_circle_style);
@@ -115,7 +115,7 @@ std::string to_svg(const TeethInMesh& drawing, const geometry::GearPair& pair) {
   return svg::titled_picture(
       drawing.title,
       fmt::format("{}, enlarged to scale at pitch-point contact: teeth of {} and {}, base circles, line of action",
-                  drawing.title, drawing.planet_name, drawing.wheel_name),
+                  drawing.title, drawing.pinion_name, drawing.wheel_name),
       teeth_width, teeth_top + height + 4.6 * legend_row, 6,
       svg::window({0, teeth_top}, size, {0, 0}, shown) +
           teeth_legend(drawing, pair, teeth_top + height + legend_row, scale));

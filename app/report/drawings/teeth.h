@@ -10,7 +10,7 @@ namespace annulus::app {
 struct TeethInMesh {
   std::string title{};
   std::string id{};  ///< makes the identifiers unique within a page
-  std::string planet_name{"planet"}, wheel_name{};
+  std::string pinion_name{"pinion"}, wheel_name{"wheel"};
   double wheel_outside_radius = 0;  ///< m, of an internal wheel
 };
 [[nodiscard]] std::string to_svg(const TeethInMesh& drawing, const geometry::GearPair& pair);

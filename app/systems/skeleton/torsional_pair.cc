@@ -158,9 +158,9 @@ class TorsionalPair final : public GearSystem {
                                  .title = "mesh of pinion and wheel",
                                  .pair = pair,
                                  .input = input().mesh,
-                                 .planet = input().pinion,
+                                 .pinion = input().pinion,
                                  .wheel = input().wheel,
-                                 .planet_name = "pinion",
+                                 .pinion_name = "pinion",
                                  .wheel_name = "wheel",
                                  .wheel_support_diameter = input().wheel.bore_diameter,
                                  .mean_force = mean_mesh_force()})};

@@ -103,9 +103,9 @@ MeshModel two_k_v_sun_model(const Scene& scene) {
                             .title = "sun-planet mesh",
                             .pair = pair,
                             .input = sun_and_planets(scene).sun_planet,
-                            .planet = sun_and_planets(scene).planet,
+                            .pinion = sun_and_planets(scene).planet,
                             .wheel = sun_and_planets(scene).sun,
-                            .planet_name = "planet",
+                            .pinion_name = "planet",
                             .wheel_name = "sun",
                             .wheel_support_diameter = sun_and_planets(scene).sun.bore_diameter,
                             .mean_force = two_k_v_kinematics(scene).mean_sun_mesh_force()});

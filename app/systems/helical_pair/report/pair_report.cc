@@ -31,11 +31,11 @@ Section pair_drawings(const PairRunResult& result) {
                             .id = "pair-pinion",
                             .fill = planet_fill,
                             .inner_radius = bore_radius(helical_pair(scene).pinion)},
-                           {{centre, stand.planet}}});
+                           {{centre, stand.pinion}}});
   section.lengths.push_back({axis, centre, 0, "a = "});
   return geometry_section(Pictures{{drawn(section), drawn(TeethInMesh{.title = "Pinion and wheel in mesh",
                                                                       .id = "pair-teeth",
-                                                                      .planet_name = "pinion",
+                                                                      .pinion_name = "pinion",
                                                                       .wheel_name = "wheel"},
                                                           gears)},
                                    {},

@@ -88,10 +88,13 @@ Section drawings_section(const RunResult& result) {
     if (same != rings.begin() + static_cast<std::ptrdiff_t>(i)) continue;
     std::vector<Picture> pictures;
     if (i == 0)
-      pictures.push_back(drawn(TeethInMesh{.title = "Sun and planet in mesh", .id = id + "-outer", .wheel_name = "sun"},
-                               ring.set.sun_mesh()));
+      pictures.push_back(drawn(
+          TeethInMesh{
+              .title = "Sun and planet in mesh", .id = id + "-outer", .pinion_name = "planet", .wheel_name = "sun"},
+          ring.set.sun_mesh()));
     pictures.push_back(drawn(TeethInMesh{.title = ring.name + ": ring and planet in mesh",
                                          .id = id + "-inner",
+                                         .pinion_name = "planet",
                                          .wheel_name = "ring",
                                          .wheel_outside_radius = ring.outside_radius},
                              ring.set.ring_mesh()));

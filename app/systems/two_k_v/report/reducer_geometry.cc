@@ -67,9 +67,11 @@ Section drawings_section(const TwoKVResult& result) {
     planets.emplace_back(phi, geometry::planet_place(pair, phi, std::fmod(turn * pair.wheel().teeth(), 1.0)));
   }
   add_sun_and_planets(section, scene, pair, geometry::pair_places(pair).wheel, planets, "reducer");
-  std::vector<Picture> pictures = {
-      drawn(section),
-      drawn(TeethInMesh{.title = "Sun and planet in mesh", .id = "reducer-teeth", .wheel_name = "sun"}, pair)};
+  std::vector<Picture> pictures = {drawn(section), drawn(TeethInMesh{.title = "Sun and planet in mesh",
+                                                                     .id = "reducer-teeth",
+                                                                     .pinion_name = "planet",
+                                                                     .wheel_name = "sun"},
+                                                         pair)};
   std::string words =
       "All lengths in millimetres. Left: the involute stage. Right: its " + teeth_words("planet", "sun");
   if (result.arc) {

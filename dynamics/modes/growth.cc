@@ -1,0 +1,53 @@
+#include "dynamics/modes/growth.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.h"
+#include "dynamics/modes/dense_spectrum.h"
+#include "dynamics/modes/linear_system.h"
+
+namespace annulus::dynamics {
+
+Growth fastest_growth(const LumpedSystem& system) {
+  const auto linear = linear_system(system);
+  const Eigen::Index n = linear.mass.rows();
+  if (n == 0) return {};
+  const Eigen::LLT<Eigen::MatrixXd> mass(linear.mass);
+  const Eigen::MatrixXd stiffness = mass.solve(linear.stiffness + linear.rotating_stiffness);
+  // Displacements and velocities in units of one size, of which rounding is a part.
+  const double scale = std::sqrt(stiffness.diagonal().cwiseAbs().maxCoeff());
+  if (!(scale > 0)) return {};
+  Eigen::MatrixXd state = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  state.topRightCorner(n, n).diagonal().setConstant(scale);
+  state.bottomLeftCorner(n, n) = -stiffness / scale;
+  state.bottomRightCorner(n, n) = -mass.solve(linear.damping + linear.gyroscopic);
+  const auto pairs = eigenpairs(state);
+  if (!pairs) throw SolverError(fmt::format("the eigenvalues of {} degrees of freedom were not found", n));
+  // Rigid motions have double zeros, which rounding separates by its square root.
+  constexpr double rigid_motion = 1e-6;
+  const double slowest = rigid_motion * pairs->values.cwiseAbs().maxCoeff();
+  const Eigen::VectorXd rates = (pairs->values.array().abs() > slowest).select(pairs->values.real().array(), -slowest);
+  Eigen::Index fastest = 0, largest = 0;
+  rates.maxCoeff(&fastest);
+  pairs->vectors.col(fastest).head(n).cwiseAbs().maxCoeff(&largest);
+  const auto value = pairs->values[fastest];
+  return {rates[fastest], std::abs(value.imag()) / (2 * std::numbers::pi),
+          linear.dofs.at(static_cast<std::size_t>(largest))};
+}
+
+void refuse_growth(const LumpedSystem& system, double mesh_frequency) {
+  constexpr double still = 1e-4;  // per mesh cycle
+  const auto growth = fastest_growth(system);
+  if (growth.rate <= still * mesh_frequency) return;
+  throw InputError(fmt::format(
+      "unstable at this speed: small motions grow e-fold within {:.3g} s{}, most of all {}. Centrifugal or gyroscopic "
+      "forces, or damping that turns, exceed what holds a body; stiffer bearings and supports or a lower speed help",
+      1 / growth.rate, growth.frequency > 0 ? fmt::format(", at {:.4g} Hz", growth.frequency) : " without oscillation",
+      growth.dof));
+}
+
+}  // namespace annulus::dynamics
