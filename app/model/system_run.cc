@@ -29,9 +29,11 @@ void SystemRun::respond(const RunOptions& options) {
   for_each_task(responses.size(), options.threads, [&](std::size_t variant) {
     const Stopwatch watch;
     const auto& name = variants[variant].folder;
+    std::unique_ptr<RunResponse> response;
     about(scene, name.empty() ? "dynamics" : "dynamics of '" + name + "'",
-          [&] { responses[variant] = system->respond(*this, variant, options); });
-    responses[variant]->seconds = watch.seconds();
+          [&] { response = system->respond(*this, variant, options); });
+    response->seconds = watch.seconds();
+    responses[variant] = std::move(response);
   });
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -27,15 +28,12 @@ Growth fastest_growth(const LumpedSystem& system) {
   state.bottomRightCorner(n, n) = -mass.solve(linear.damping + linear.gyroscopic);
   const auto pairs = eigenpairs(state);
   if (!pairs) throw SolverError(fmt::format("the eigenvalues of {} degrees of freedom were not found", n));
-  // Rigid motions have double zeros, which rounding separates by its square root.
-  constexpr double rigid_motion = 1e-6;
-  const double slowest = rigid_motion * pairs->values.cwiseAbs().maxCoeff();
-  const Eigen::VectorXd rates = (pairs->values.array().abs() > slowest).select(pairs->values.real().array(), -slowest);
   Eigen::Index fastest = 0, largest = 0;
-  rates.maxCoeff(&fastest);
+  const double found = pairs->values.real().maxCoeff(&fastest);
   pairs->vectors.col(fastest).head(n).cwiseAbs().maxCoeff(&largest);
-  const auto value = pairs->values[fastest];
-  return {rates[fastest], std::abs(value.imag()) / (2 * std::numbers::pi),
+  // Double eigenvalues of rigid motions are separated by the square root of rounding.
+  const double seen = 1e-6 * pairs->values.cwiseAbs().maxCoeff();
+  return {found > seen ? found : std::min(found, 0.0), std::abs(pairs->values[fastest].imag()) / (2 * std::numbers::pi),
           linear.dofs.at(static_cast<std::size_t>(largest))};
 }
 

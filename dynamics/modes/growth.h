@@ -7,8 +7,8 @@
 namespace annulus::dynamics {
 
 /// The small free motion of a system that grows fastest, all teeth in contact, with the mean tangents of the meshes:
-/// the eigenvalue lambda of M q'' + (C + G) q' + (K + K_Omega) q = 0 with the largest real part. Those below 1e-6 of
-/// the largest one belong to rigid motions.
+/// the eigenvalue lambda of M q'' + (C + G) q' + (K + K_Omega) q = 0 with the largest real part. A growth below 1e-6 of
+/// the largest eigenvalue counts as none: rounding of rigid motions.
 struct Growth {
   double rate = 0;       ///< 1/s, Re lambda; not above 0: every motion dies out or stays
   double frequency = 0;  ///< Hz, |Im lambda| / 2 pi; 0: without oscillation

@@ -169,7 +169,8 @@ BOOST_AUTO_TEST_CASE(enlarged_teeth_show_what_contact_follows_from) {
   const auto scene = app::parse_scene(test::small_stage(), "s");
   const auto geometry = app::make_geometry(scene);
   // Standard gears at the reference centre distance: working pressure angle 20 deg, base diameters m z cos 20 deg.
-  const auto svg = app::to_svg({.title = "a<b", .id = "t", .wheel_name = "sun"}, geometry.sun_mesh());
+  const auto svg =
+      app::to_svg({.title = "a<b", .id = "t", .pinion_name = "planet", .wheel_name = "sun"}, geometry.sun_mesh());
   BOOST_TEST(svg.find("a&lt;b") != std::string::npos);
   BOOST_TEST(svg.find("working pressure angle 20°") != std::string::npos);
   BOOST_TEST(svg.find("base circles ⌀ 90.2105 (planet), ⌀ 90.2105 (sun)") != std::string::npos);

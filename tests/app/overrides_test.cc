@@ -6,9 +6,11 @@
 #include "app/model/study_cases.h"
 #include "app/study/studies.h"
 #include "app/systems/planetary/planetary_input.h"
+#include "app/systems/shared/space_input.h"
 #include "app/systems/shared/sun_planet_input.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
+#include "tests/app/statics_scenes.h"
 
 namespace annulus {
 
@@ -97,6 +99,15 @@ BOOST_AUTO_TEST_CASE(rings_are_named_or_all_meant) {
   const auto thin = app::with_overrides(scene, {{"ring.outside_diameter_mm", 1.01, true}});
   for (const auto& ring : planetary(thin).rings)
     BOOST_TEST(*ring.outside_diameter == 1.01 * 0.6636, boost::test_tools::tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_CASE(a_factor_multiplies_the_value_of_each_bearing) {
+  const auto scene = app::parse_scene(test::statics::helical_stage() + test::statics::in_space(), "scene.toml");
+  const auto doubled = app::with_overrides(scene, {{"bearing.axial_N_per_m", 2, true}});
+  const auto &before = scene.own<app::SpaceInput>().bearings, &after = doubled.own<app::SpaceInput>().bearings;
+  BOOST_TEST_REQUIRE(after.size() == before.size());
+  for (std::size_t i = 0; i < before.size(); ++i)
+    BOOST_TEST(after[i].axial == 2 * before[i].axial, boost::test_tools::tolerance(1e-14));
 }
 
 BOOST_AUTO_TEST_CASE(factors_multiply_each_present_value) {

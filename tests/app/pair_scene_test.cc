@@ -311,6 +311,28 @@ BOOST_AUTO_TEST_CASE(what_needs_several_changes_is_refused_too) {
   BOOST_CHECK_THROW(app::check_stage(pointed), GeometryError);
 }
 
+BOOST_AUTO_TEST_CASE(teeth_that_do_not_fit_are_those_of_pinion_and_wheel) {
+  const auto undercut = parsed_pair(
+      test::replaced(test::quick_pair(), "teeth = 21\nprofile_shift = 0", "teeth = 21\nprofile_shift = -1"));
+  BOOST_CHECK_EXCEPTION(app::check_stage(undercut), GeometryError, [](const GeometryError& error) {
+    const std::string text = error.what();
+    BOOST_TEST(text.find("the tip of the wheel") != std::string::npos, text);
+    BOOST_TEST(text.find("the start of the pinion's involute") != std::string::npos, text);
+    return text.find("planet") == std::string::npos && text.find("sun") == std::string::npos;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(a_drawn_error_is_an_input_that_follows_from_others) {
+  const auto drawn = parsed_pair(test::quick_pair());
+  const auto& input = input_of(drawn, "errors.mesh_error_um");
+  BOOST_CHECK(input.origin == app::Origin::derived);
+  BOOST_TEST(std::get<double>(input.value) == app::pair_errors(drawn).amplitude / units::um,
+             boost::test_tools::tolerance(1e-14));
+  // A phase that nobody states is drawn, as that of any error.
+  const auto phases = app::unstated_phases(drawn);
+  BOOST_TEST((std::find(phases.begin(), phases.end(), "errors.mesh_error_phase_deg") != phases.end()));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace annulus

@@ -67,7 +67,7 @@ PairGeometry make_pair_geometry(const Scene& scene) {
   const auto pinion = pair_gear(scene, helical_pair(scene).pinion, "pinion", 1);
   const auto wheel = pair_gear(scene, helical_pair(scene).wheel, "wheel", -1);
   const double distance = pair_centre_distance(scene);
-  return {.gears = geometry_of("pinion (as planet) and wheel",
+  return {.gears = geometry_of("pinion and wheel",
                                [&] { return geometry::GearPair(pinion, wheel, distance, geometry::GearRole::pinion); }),
           .base_helix_angle = std::abs(pinion.base_helix_angle()),
           .transverse_force = std::abs(helical_pair(scene).stage.pinion_torque) / pinion.base_radius()};
