@@ -9,6 +9,7 @@
 #include "app/export/matrices.h"
 #include "app/export/rexs.h"
 #include "app/export/table_text.h"
+#include "app/scene/overrides.h"
 #include "app/scene/scene_schema.h"
 #include "core/csv.h"
 #include "core/errors.h"

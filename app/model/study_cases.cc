@@ -57,7 +57,10 @@ std::vector<std::string> unknown_phases(const Scene& scene, bool unstated_only) 
       const std::string index = of_each_planet ? fmt::format("[{}]", n) : "";
       const std::string amount = fmt::format("errors.{}_um{}", name, index),
                         phase = fmt::format("errors.{}_phase_deg{}", name, index);
-      const bool exists = input_value(scene, find_input(scene, amount)).value_or(0) != 0 || drawn(scene, amount);
+      const auto* input = scene.find(fmt::format("errors.{}_um", name));
+      const bool follows = input != nullptr && input->origin == Origin::derived;
+      const bool exists =
+          follows || input_value(scene, find_input(scene, amount)).value_or(0) != 0 || drawn(scene, amount);
       if (exists && !drawn(scene, phase)) paths.push_back(phase);
     }
   }

@@ -40,7 +40,7 @@ const Input* talked_about(const Scene& scene, const std::string& message) {
         return i.line > 0 && starts_with_word(message, i.key.substr(0, i.key.find('.')));
       }))
     return table;
-  return first(scene, [](const Input& i) { return i.key == "stage.kind"; });
+  return nullptr;
 }
 
 }  // namespace
@@ -50,7 +50,9 @@ std::string place_text(const Scene& scene, const std::string& key, std::size_t e
 }
 
 std::string with_place(const Scene& scene, const std::string& message) {
-  return text_of(scene, talked_about(scene, message)) + ": " + without_controls(message);
+  const auto* input = talked_about(scene, message);
+  if (input == nullptr) input = scene.find("stage.kind");
+  return text_of(scene, input) + ": " + without_controls(message);
 }
 
 void about(const Scene& scene, const std::string& name, const std::function<void()>& action) {
@@ -58,7 +60,10 @@ void about(const Scene& scene, const std::string& name, const std::function<void
     action();
   } catch (const InputError& error) {
     if (std::string(error.what()).starts_with(scene.file.string() + ":")) throw;
-    throw InputError(with_place(scene, name + ": " + error.what()));
+    const auto text = name + ": " + error.what();
+    const auto* input = talked_about(scene, error.what());
+    if (input == nullptr) throw InputError(with_place(scene, text));
+    throw InputError(text_of(scene, input) + ": " + without_controls(text));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "core/log.h"
 #include "dynamics/modes/dense_spectrum.h"
 #include "dynamics/modes/linear_system.h"
 
@@ -27,12 +28,15 @@ Growth fastest_growth(const LumpedSystem& system) {
   state.bottomLeftCorner(n, n) = -stiffness / scale;
   state.bottomRightCorner(n, n) = -mass.solve(linear.damping + linear.gyroscopic);
   const auto pairs = eigenpairs(state);
-  if (!pairs) throw SolverError(fmt::format("the eigenvalues of {} degrees of freedom were not found", n));
+  if (!pairs) {
+    log::warn(fmt::format("whether small motions grow is not known: no eigenvalues of {} degrees of freedom", n));
+    return {};
+  }
   Eigen::Index fastest = 0, largest = 0;
   const double found = pairs->values.real().maxCoeff(&fastest);
   pairs->vectors.col(fastest).head(n).cwiseAbs().maxCoeff(&largest);
   // Double eigenvalues of rigid motions are separated by the square root of rounding.
-  const double seen = 1e-6 * pairs->values.cwiseAbs().maxCoeff();
+  const double seen = 1e-7 * pairs->values.cwiseAbs().maxCoeff();
   return {found > seen ? found : std::min(found, 0.0), std::abs(pairs->values[fastest].imag()) / (2 * std::numbers::pi),
           linear.dofs.at(static_cast<std::size_t>(largest))};
 }
@@ -42,8 +46,10 @@ void refuse_growth(const LumpedSystem& system, double mesh_frequency) {
   const auto growth = fastest_growth(system);
   if (growth.rate <= still * mesh_frequency) return;
   throw InputError(fmt::format(
-      "unstable at this speed: small motions grow e-fold within {:.3g} s{}, most of all {}. Centrifugal or gyroscopic "
-      "forces, or damping that turns, exceed what holds a body; stiffer bearings and supports or a lower speed help",
+      "unstable at this speed: small motions grow e-fold within {:.3g} s{}, most of all {}. A body is held more softly "
+      "than its centrifugal or gyroscopic forces or damping that turns require. Use stiffer bearings or supports, "
+      "fewer "
+      "floating bodies, or a lower speed",
       1 / growth.rate, growth.frequency > 0 ? fmt::format(", at {:.4g} Hz", growth.frequency) : " without oscillation",
       growth.dof));
 }

@@ -7,17 +7,18 @@
 namespace annulus::dynamics {
 
 /// The small free motion of a system that grows fastest, all teeth in contact, with the mean tangents of the meshes:
-/// the eigenvalue lambda of M q'' + (C + G) q' + (K + K_Omega) q = 0 with the largest real part. A growth below 1e-6 of
+/// the eigenvalue lambda of M q'' + (C + G) q' + (K + K_Omega) q = 0 with the largest real part. A growth below 1e-7 of
 /// the largest eigenvalue counts as none: rounding of rigid motions.
 struct Growth {
   double rate = 0;       ///< 1/s, Re lambda; not above 0: every motion dies out or stays
   double frequency = 0;  ///< Hz, |Im lambda| / 2 pi; 0: without oscillation
   std::string dof;       ///< the one that moves most
 };
-/// Throws SolverError where the eigenvalues are not found.
+/// None, with a warning in the log, where the eigenvalues are not found.
 [[nodiscard]] Growth fastest_growth(const LumpedSystem& system);
 
-/// Throws InputError where small free motions grow by more than 1e-4 per mesh cycle: no motion of such a system lasts.
+/// Throws InputError where small free motions grow by more than 1e-4 per mesh cycle (and fastest_growth() sees it): no
+/// motion near equilibrium lasts in such a system.
 /// `mesh_frequency` in Hz.
 void refuse_growth(const LumpedSystem& system, double mesh_frequency);
 

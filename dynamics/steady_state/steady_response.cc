@@ -114,7 +114,7 @@ class SteadyStateFinder {
     }
     // Where no multiplier has judged the motion, time integration may end before it departs.
     const bool judged = periodic_.status == PeriodicStatus::found && periodic_.report->largest_multiplier;
-    if (!judged && system_.has_fixed_directions()) refuse_growth(system_, problem_.mesh_frequency);
+    if (!judged && !system_.has_moving_vectors()) refuse_growth(system_, problem_.mesh_frequency);
     if (periodic_.status != PeriodicStatus::found)
       return {searchable() ? &SteadyStateFinder::search : &SteadyStateFinder::integrate_prescribed};
     return {wants_confirmation() ? &SteadyStateFinder::confirm : &SteadyStateFinder::accept};

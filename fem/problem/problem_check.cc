@@ -49,7 +49,7 @@ void check_rollers(const LoadedMeshProblem& problem, Fidelity fidelity) {
   if (rollers.partner.pinion().teeth() != problem.pair.pinion().teeth() ||
       rollers.partner.internal() == problem.pair.internal())
     throw InputError(
-        fmt::format("the other mesh of a planet with {} teeth on rollers has a pinion with {} teeth, and has to be {}",
+        fmt::format("the other mesh of a planet with {} teeth on rollers has a planet with {} teeth, and has to be {}",
                     problem.pair.pinion().teeth(), rollers.partner.pinion().teeth(),
                     problem.pair.internal() ? "external" : "internal"));
 }

@@ -16,7 +16,6 @@
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/stage_warnings.h"
-#include "app/systems/shared/sun_planet_input.h"
 #include "core/errors.h"
 #include "core/log.h"
 #include "core/units.h"

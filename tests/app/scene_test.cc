@@ -420,6 +420,13 @@ BOOST_AUTO_TEST_CASE(every_key_is_documented) {
   BOOST_TEST(app::explain(*app::find_parameter("stage.module_mm")).find("mm") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_ring_without_a_name_is_one_problem) {
+  const auto problems = problems_of(test::replaced(test::small_stage(), "name = \"ring\"\n", ""));
+  BOOST_TEST_REQUIRE(problems.size() == 1U);
+  BOOST_TEST(problems.front().message.find("ring.name: is missing for ring '1'") != std::string::npos,
+             problems.front().message);
+}
+
 BOOST_AUTO_TEST_CASE(the_scene_reference_is_up_to_date) {
   const std::string text = read_file(std::string(ANNULUS_SOURCE_DIR) + "/docs/scene.md");
   BOOST_TEST((text == app::scene_reference()), "run: annulus explain --markdown > docs/scene.md");

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/model/gear_system.h"
-#include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "core/errors.h"
 #include "core/files.h"

@@ -80,7 +80,7 @@ class Reader {
       table.resize(scene_, array->size());
       for (std::size_t i = 0; i < array->size(); ++i) {
         const auto& entry = *array->get(i)->as_table();
-        // One without a name, which is a problem, is told by its number.
+        // One without a name, which is a problem, is named by its number.
         read_keys(table, entry, i, table.variants ? entry["name"].value_or(fmt::format("{}", i + 1)) : "");
       }
       return;

@@ -5,7 +5,6 @@
 
 #include "app/scene/key_checks.h"
 #include "app/scene/model_limits.h"
-#include "app/systems/helical_pair/pair_errors.h"
 #include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/pair_model.h"
 #include "app/systems/helical_pair/pair_scene.h"
@@ -51,6 +50,8 @@ class PairChecker : KeyChecks {
   void errors() {
     if (!helical_pair(scene_).manufacturing_error) return;
     const auto& m = *helical_pair(scene_).manufacturing_error;
+    // Its value is drawn in the run.
+    if (m.reading != "none") set("errors.mesh_error_um", {}, Origin::derived, "the reading of [manufacturing_error]");
     const std::string table = "manufacturing_error.";
     const auto order = [&](const std::string& gear, double total, double tooth) {
       if (!usable(table + gear + "_total_um") || !usable(table + gear + "_tooth_to_tooth_um")) return;
@@ -97,8 +98,6 @@ class PairChecker : KeyChecks {
 
   /// Derived inputs, and checks that need the geometry of the gears.
   void geometry() {
-    if (const auto drawn = pair_errors(scene_); drawn.taken(scene_) != nullptr)
-      set("errors.mesh_error_um", drawn.amplitude / units::um, Origin::derived, "the reading of [manufacturing_error]");
     resolve_profile_shifts(
         scene_, problems_,
         {{"pinion", &helical_pair(scene_).pinion, geometry::GearKind::external, &helical_pair(scene_).wheel, "wheel"},

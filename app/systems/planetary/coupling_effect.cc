@@ -55,7 +55,7 @@ CouplingEffect coupling_effect(const dynamics::PlanetaryStage& uncoupled, const 
       const auto figures = dynamics::figures(dynamics::simulate(stage, integrated));
       auto& row = effect.rows.emplace_back(Row{.model = model});
       for (const auto& [key, value] : row_values) row.*value = figures.value(key);
-    } catch (const SolverError& error) {
+    } catch (const Error& error) {
       // The comparison is an extra: where a model of it fails, the others stand.
       log::info(fmt::format("coupling through the ring, {}: {}", name, error.what()));
     }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <string>
 
 #include "app/plan/gear_geometry.h"
 #include "app/results/result_folder.h"
@@ -37,6 +38,7 @@ class PlanetaryChecker : KeyChecks {
   using KeyChecks::KeyChecks;
 
   void run() {
+    number_nameless_rings();
     planet_angles();
     errors();
     bearings();
@@ -63,6 +65,13 @@ class PlanetaryChecker : KeyChecks {
   }
 
  private:
+  /// A ring without a usable name, which is a problem, goes by the number that its inputs have.
+  void number_nameless_rings() {
+    auto& rings = planetary(scene_).rings;
+    for (std::size_t i = 0; i < rings.size(); ++i)
+      if (rings[i].name.empty()) rings[i].name = std::to_string(i + 1);
+  }
+
   void rotors() {
     dynamics::PlanetaryStage stage;
     for (const auto member : geometry::stage_members)

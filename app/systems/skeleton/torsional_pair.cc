@@ -182,7 +182,8 @@ class TorsionalPair final : public GearSystem {
     const double pinion = mass(input().pinion.inertia.value() + input().drive, pair.pinion()),
                  wheel = mass(input().wheel.inertia.value(), pair.wheel()), force = mean_mesh_force();
     // What is prescribed is read from the scene.
-    const double stiffness = input().mesh.mean.value_or(tables.front()->mean_stiffness().value);
+    const auto& given = input().mesh.mean;
+    const double stiffness = given ? *given : tables.front()->mean_stiffness().value;
     return std::make_unique<LumpedModel>(identity_of(stiffness, force, pinion, wheel), [=](Answer /*wanted*/) {
       return torsional_answer(stiffness, force, pinion, wheel);
     });
@@ -199,7 +200,8 @@ class TorsionalPair final : public GearSystem {
   [[nodiscard]] const TorsionalInput& input() const { return scene().own<TorsionalInput>(); }
   [[nodiscard]] geometry::GearPair gears() const {
     return {make_gear(scene(), input().pinion, geometry::GearKind::external),
-            make_gear(scene(), input().wheel, geometry::GearKind::external, -1), scene().stage.centre_distance};
+            make_gear(scene(), input().wheel, geometry::GearKind::external, -1), scene().stage.centre_distance,
+            geometry::GearRole::pinion};
   }
 };
 
