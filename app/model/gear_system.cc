@@ -12,9 +12,16 @@
 #include "app/model/scene_warnings.h"
 #include "app/plan/plan.h"
 #include "app/scene/input_place.h"
+#include "app/scene/overrides.h"
 #include "core/errors.h"
 
 namespace annulus::app {
+
+std::vector<std::string> GearSystem::variants() const {
+  auto names = variant_names(scene_);
+  if (names.empty()) names.emplace_back();
+  return names;
+}
 
 PlanCost GearSystem::cost(int threads) const {
   const auto planned = responses();

@@ -56,8 +56,8 @@ class GearSystem {
   [[nodiscard]] const Scene& scene() const { return scene_; }
   /// One line for people: "3 rings, 5 planets".
   [[nodiscard]] virtual std::string describe() const = 0;
-  /// The lumped models that are compared: the rings of a planetary stage; otherwise a single one without a name.
-  [[nodiscard]] virtual std::vector<std::string> variants() const { return {""}; }
+  /// The lumped models that are compared: the variants of the scene (variant_names), else a single one without a name.
+  [[nodiscard]] std::vector<std::string> variants() const;
 
   /// Geometry and whatever else needs no solving. Throws InputError and GeometryError without a place in the scene.
   virtual void check() const = 0;

@@ -10,7 +10,7 @@ namespace annulus::app {
 namespace {
 
 Table top_level_table() {
-  Declarations<Scene> top("", "The whole scene.", [](Scene& s, std::size_t) -> Scene& { return s; });
+  Declarations<Scene> top("", "The whole scene.");
   top.key("title", &Scene::title, "Title of the report.").fallback("Planetary stage", "");
   top.key("accuracy", &Scene::accuracy, "Wanted relative accuracy of the mesh stiffness.")
       .fallback(0.01, "well below the spread of unknown inputs such as support stiffnesses")
@@ -32,8 +32,7 @@ Table top_level_table() {
 }
 
 Table report_table() {
-  Declarations<Scene> report("report", "Names in the head of the report.",
-                             [](Scene& s, std::size_t) -> Scene& { return s; });
+  Declarations<Scene> report("report", "Names in the head of the report.");
   report.optional();
   report.key("project", &Scene::project, "Project or customer.").fallback("", "none is named");
   report.key("author", &Scene::author, "Who made it.").fallback("", "none is named");

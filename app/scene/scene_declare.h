@@ -156,6 +156,10 @@ class Declarations {
     table_.path = std::move(path);
     table_.meaning = std::move(meaning);
   }
+  /// Keys of the scene itself, or of a struct of inputs that it owns as a whole.
+  Declarations(std::string path, std::string meaning)
+      : Declarations(std::move(path), std::move(meaning),
+                     [](Scene& s, std::size_t) -> Section& { return held_by<Section>(s); }) {}
   template <class Holder>
   Declarations(std::string path, std::string meaning, Section Holder::*member)
       : Declarations(std::move(path), std::move(meaning),

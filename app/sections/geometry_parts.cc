@@ -25,11 +25,11 @@ std::string helical_note(double helix_angle) {
   return helix_angle == 0 ? "" : " Helical teeth are shown in the transverse section at z = 0.";
 }
 
-std::string teeth_words(const std::string& planet, const std::string& wheels) {
+std::string teeth_words(const std::string& pinion, const std::string& wheels) {
   return fmt::format(
       "teeth in mesh at phase 0. At this phase the driving flanks touch at the pitch point C, if it lies on the path "
       "of contact. The path of contact ends at A (tip of the {}) and at E (tip of the {}).",
-      wheels, planet);
+      wheels, pinion);
 }
 
 Section geometry_section(const Blocks& blocks) { return {"drawings", "Geometry", blocks, "Geometry to scale"}; }

@@ -23,7 +23,7 @@ struct NamedGear {
 
 [[nodiscard]] std::string helical_note(double helix_angle);
 /// What the enlarged teeth show.
-[[nodiscard]] std::string teeth_words(const std::string& planet, const std::string& wheels);
+[[nodiscard]] std::string teeth_words(const std::string& pinion, const std::string& wheels);
 
 [[nodiscard]] Section geometry_section(const Blocks& blocks);
 /// Anything that can be drawn, as a picture.

@@ -42,9 +42,8 @@ Growth fastest_growth(const LumpedSystem& system) {
 }
 
 void refuse_growth(const LumpedSystem& system, double mesh_frequency) {
-  constexpr double still = 1e-4;  // per mesh cycle
   const auto growth = fastest_growth(system);
-  if (growth.rate <= still * mesh_frequency) return;
+  if (growth.rate <= unseen_growth * mesh_frequency) return;
   throw InputError(fmt::format(
       "unstable at this speed: small motions grow e-fold within {:.3g} s{}, most of all {}. A body is held more softly "
       "than its centrifugal or gyroscopic forces or damping that turns require. Use stiffer bearings or supports, "

@@ -17,9 +17,12 @@ struct Growth {
 /// None, with a warning in the log, where the eigenvalues are not found.
 [[nodiscard]] Growth fastest_growth(const LumpedSystem& system);
 
-/// Throws InputError where small free motions grow by more than 1e-4 per mesh cycle (and fastest_growth() sees it): no
-/// motion near equilibrium lasts in such a system.
-/// `mesh_frequency` in Hz.
+/// Relative growth per mesh cycle that counts as none: double zero eigenvalues are 1e-7 from it, and a thousandfold
+/// growth over a thousand cycles would not pass unseen.
+inline constexpr double unseen_growth = 1e-4;
+
+/// Throws InputError where small free motions grow by more than unseen_growth per mesh cycle (and fastest_growth() sees
+/// it): no motion near equilibrium lasts in such a system. `mesh_frequency` in Hz.
 void refuse_growth(const LumpedSystem& system, double mesh_frequency);
 
 }  // namespace annulus::dynamics

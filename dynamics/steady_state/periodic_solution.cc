@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "dynamics/modes/growth.h"
 #include "dynamics/modes/modes.h"
 #include "dynamics/steady_state/floquet.h"
 #include "dynamics/steady_state/piecewise_response.h"
@@ -145,9 +146,7 @@ void examine_stability(const LumpedSystem& system, const SteadyProblem& problem,
   auto& report = *search.report;
   if (search.loses_contact() || report.method == PeriodicMethod::piecewise || !system.has_fixed_directions()) return;
   report.largest_multiplier = growth_per_cycle(system, problem.mesh_frequency, search.windows->fine);
-  // A thousandfold growth over a thousand cycles would pass unseen; double zero eigenvalues are 1e-7 from 1.
-  constexpr double still = 1e-4;
-  if (*report.largest_multiplier <= 1 + still) return;
+  if (*report.largest_multiplier <= 1 + unseen_growth) return;
   report.converged = false;
   report.trouble =
       fmt::format("parametric resonance: disturbances of the periodic motion grow {:.4g} times per mesh cycle",

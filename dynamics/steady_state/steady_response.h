@@ -182,8 +182,8 @@ struct SteadyResponse : SteadyOutcome {
 /// parametric resonance prevent it too. The torque may have either sign or be zero. `keep_series` has no effect: all
 /// windows are returned.
 ///
-/// Throws InputError when problem or options are not usable or the load is not balanced, SolverError when the
-/// integrator fails.
+/// Throws InputError when problem or options are not usable, the load is not balanced, or small motions grow
+/// (refuse_growth), SolverError when the integrator fails.
 [[nodiscard]] SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& problem,
                                              const SimulationOptions& options = {});
 

@@ -18,13 +18,13 @@ class ResultStore;
 
 namespace annulus::fem {
 
-/// A gear mesh to be solved: sun-planet or planet-ring, with the bodies' supports.
+/// A gear mesh to be solved, external or internal, with the supports of its bodies.
 struct LoadedMeshProblem {
   geometry::GearPair pair;
   MeshMaterials materials{};
   double face_width = 0;            ///< m, of the common face, on which the flanks touch
   double pinion_bore_radius = 0;    ///< m, rigid hub, or the raceway of rollers
-  double wheel_support_radius = 0;  ///< m: bore of the sun (rigid hub) or outside radius of the ring
+  double wheel_support_radius = 0;  ///< m: bore of an external wheel (rigid hub), or outside radius of a ring
   RingStructure structure{};        ///< ring mesh only; the outside held unless set
   double misalignment = 0;          ///< m over the face width, normal to the flanks, > 0 opens towards +z
   geometry::Overhang pinion_overhang{}, wheel_overhang{};  ///< teeth beyond the common face

@@ -7,7 +7,6 @@
 
 #include "app/export/rexs.h"
 #include "app/model/gear_system.h"
-#include "app/scene/overrides.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/stage_geometry.h"
 #include "core/errors.h"

@@ -66,7 +66,7 @@ std::string plane_picture(const fem::LoadedMeshProblem& problem, const fem::Load
   const double pen = pinion.parameters().module / (3.8 * units::mm);  // lines as thick for the eye, whatever the size
   std::string text =
       teeth(solved.wheel_sector, {"wheel-" + name, wheel_fill, wheel.pitch_angle(), wheel_first, 0}, each_side, pen);
-  text += teeth(solved.pinion_sector, {"planet-" + name, planet_fill, pinion.pitch_angle(), pinion_first, centre},
+  text += teeth(solved.pinion_sector, {"pinion-" + name, planet_fill, pinion.pitch_angle(), pinion_first, centre},
                 each_side, pen);
   const double reach = (each_side + 0.5) * wheel.pitch_angle();
   text += pair.internal() ? drawn_supports(mesh_page, problem.structure, support, wheel_first, reach)

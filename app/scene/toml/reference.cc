@@ -12,9 +12,7 @@ constexpr double widest = 1e30;
 /// The tables [[path]].
 template <class Entry>
 Declarations<Entry> entries(const char* path, const char* meaning, std::vector<Entry> Reference::*list) {
-  Declarations<Entry> table(
-      path, meaning, [list](Scene& s, std::size_t i) -> Entry& { return (s.own<Reference>().*list).at(i); },
-      [list](Scene& s, std::size_t n) { (s.own<Reference>().*list).resize(n); });
+  Declarations<Entry> table(path, meaning, list);
   table.optional();
   return table;
 }
@@ -28,7 +26,7 @@ Table stated(Declarations<Entry>& table) {
 }
 
 std::vector<Table> reference_tables() {
-  Declarations<Reference> top("", "", [](Scene& s, std::size_t) -> Reference& { return s.own<Reference>(); });
+  Declarations<Reference> top("", "");
   top.key("source", &Reference::source, "Where the values were published.").required();
   top.key("doi", &Reference::doi, "Its digital object identifier.");
   top.key("note", &Reference::note, "Remarks that help to judge the comparison.");

@@ -1,9 +1,9 @@
 #include "app/systems/planetary/operating_point.h"
-#include "app/systems/planetary/planetary_input.h"
 
 #include <cmath>
 #include <numbers>
 
+#include "app/systems/planetary/planetary_input.h"
 #include "core/errors.h"
 
 namespace annulus::app {

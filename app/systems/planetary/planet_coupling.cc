@@ -1,9 +1,10 @@
 #include "app/systems/planetary/planet_coupling.h"
-#include "app/systems/planetary/planetary_input.h"
-#include "app/systems/shared/sun_planet_input.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "app/systems/planetary/planetary_input.h"
+#include "app/systems/shared/sun_planet_input.h"
 
 namespace annulus::app {
 

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <optional>
 #include <set>
-#include <string>
 
 #include "app/plan/gear_geometry.h"
 #include "app/results/result_folder.h"
@@ -38,7 +37,7 @@ class PlanetaryChecker : KeyChecks {
   using KeyChecks::KeyChecks;
 
   void run() {
-    number_nameless_rings();
+    rings_by_their_inputs();
     planet_angles();
     errors();
     bearings();
@@ -65,11 +64,10 @@ class PlanetaryChecker : KeyChecks {
   }
 
  private:
-  /// A ring without a usable name, which is a problem, goes by the number that its inputs have.
-  void number_nameless_rings() {
-    auto& rings = planetary(scene_).rings;
-    for (std::size_t i = 0; i < rings.size(); ++i)
-      if (rings[i].name.empty()) rings[i].name = std::to_string(i + 1);
+  /// Problems find the inputs of a ring by its name, also where that is none that may be used.
+  void rings_by_their_inputs() {
+    for (const auto& input : scene_.inputs)
+      if (!input.variant.empty()) planetary(scene_).rings.at(input.entry).name = input.variant;
   }
 
   void rotors() {

@@ -47,12 +47,6 @@ class PlanetarySystem final : public GearSystem {
                        planetary(scene()).rings.size() == 1 ? "" : "s", scene().stage.planets);
   }
 
-  [[nodiscard]] std::vector<std::string> variants() const override {
-    std::vector<std::string> names;
-    for (const auto& ring : planetary(scene()).rings) names.push_back(ring.name);
-    return names;
-  }
-
   void check() const override {
     try {
       check_planetary_geometry(scene(), geometry());

@@ -336,8 +336,7 @@ Table tolerances_table() {
 }
 
 Table rim_coupling_key() {
-  Declarations<PlanetaryInput> lumped("dynamics", "",
-                                      [](Scene& s, std::size_t) -> PlanetaryInput& { return planetary(s); });
+  Declarations<PlanetaryInput> lumped("dynamics", "");
   lumped
       .choice("rim_coupling", &PlanetaryInput::rim_coupling,
               {{"automatic", RimCoupling::automatic},

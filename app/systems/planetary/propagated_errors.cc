@@ -7,6 +7,9 @@
 
 #include "app/model/table_errors.h"
 #include "app/systems/planetary/alternative_stages.h"
+#include "core/errors.h"
+#include "core/log.h"
+#include "core/not_known.h"
 
 namespace annulus::app {
 
@@ -70,8 +73,15 @@ void add_changes(const dynamics::PlanetaryStage& here, const std::vector<dynamic
   const auto on = [&](const dynamics::PlanetaryStage& stage) {
     return evaluation_of(dynamics::simulate(stage, way.simulation)).figures;
   };
-  const auto before = on(here);
-  for (const auto& there : others) add_change(figures, before, on(there));
+  try {
+    const auto before = on(here);
+    for (const auto& there : others) add_change(figures, before, on(there));
+  } catch (const Error& error) {  // no solution, or motions of the other stage that grow
+    log::warn(fmt::format("another model of the stage: {}: its effect on the results is not known", error.what()));
+    FigureSet unknown;
+    for (const auto& entry : figures.entries()) unknown.set(entry.key, {not_known, not_known});
+    add_change(figures, unknown, unknown);
+  }
 }
 
 }  // namespace

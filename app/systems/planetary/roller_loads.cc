@@ -1,11 +1,11 @@
 #include "app/systems/planetary/roller_loads.h"
-#include "app/systems/planetary/planetary_input.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "app/systems/planetary/planetary_input.h"
 #include "core/radial_bearing.h"
 #include "core/units.h"
 

@@ -1,7 +1,7 @@
 #include "app/systems/planetary/stage_geometry.h"
+
 #include "app/systems/planetary/planetary_input.h"
 #include "app/systems/shared/sun_planet_input.h"
-
 #include "core/units.h"
 
 namespace annulus::app {

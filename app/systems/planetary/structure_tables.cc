@@ -31,10 +31,7 @@ Table carrier_structure_table() {
       "carrier_structure",
       "What the carrier gives way, beside the pins: webs between two rigid walls, in which the pins are clamped, or a "
       "stiffness matrix. The wall with the shaft is the body of the carrier; the other one winds up against it.",
-      [](Scene& s, std::size_t) -> CarrierStructureInput& {
-        auto& c = s.own<StructureInput>().carrier;
-        return c ? *c : c.emplace();
-      });
+      &StructureInput::carrier);
   structure.on_request();
   structure
       .key("stiffness_file", &CarrierStructureInput::file,
@@ -69,10 +66,7 @@ Table carrier_structure_table() {
 
 Table housing_table() {
   Declarations<HousingInput> housing("housing", "What the housing gives way behind the bearings that stand on it.",
-                                     [](Scene& s, std::size_t) -> HousingInput& {
-                                       auto& h = s.own<StructureInput>().housing;
-                                       return h ? *h : h.emplace();
-                                     });
+                                     &StructureInput::housing);
   housing.on_request();
   housing
       .key("stiffness_file", &HousingInput::file,
@@ -84,9 +78,7 @@ Table housing_table() {
 }
 
 Table statics_table() {
-  Declarations<StaticsInput> statics(
-      "statics", "Positions of annulus statics.",
-      [](Scene& s, std::size_t) -> StaticsInput& { return s.own<StructureInput>().statics; });
+  Declarations<StaticsInput> statics("statics", "Positions of annulus statics.", &StructureInput::statics);
   statics.optional();
   statics
       .key("carrier_positions", &StaticsInput::places,

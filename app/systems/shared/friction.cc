@@ -30,8 +30,7 @@ double coefficient_of(const Scene& scene, const RollingMesh& rolling) {
 Table squeeze_film_table() {
   Declarations<SqueezeInput> film(
       "squeeze_film",
-      "Oil that flanks squeeze out where they approach each other within the backlash, beside the dampers of contact.",
-      [](Scene& s, std::size_t) -> SqueezeInput& { return s.own<SqueezeInput>(); });
+      "Oil that flanks squeeze out where they approach each other within the backlash, beside the dampers of contact.");
   film.on_request().only_if(given("[dynamics]"), "it acts in motions alone");
   film.key("viscosity_mPas", &SqueezeInput::viscosity, "Dynamic viscosity of the oil at its temperature.")
       .required()
@@ -45,8 +44,7 @@ Table squeeze_film_table() {
 
 Table friction_table() {
   Declarations<FrictionInput> friction(
-      "friction", "Friction on the flanks, by Coulomb's law: losses, efficiency, and what it does to the dynamics.",
-      [](Scene& s, std::size_t) -> FrictionInput& { return s.own<FrictionInput>(); });
+      "friction", "Friction on the flanks, by Coulomb's law: losses, efficiency, and what it does to the dynamics.");
   friction.on_request();
   friction
       .key("coefficient", &FrictionInput::coefficient, "Coefficient of friction of all meshes, over the mesh cycle.")

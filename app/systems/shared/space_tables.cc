@@ -22,14 +22,6 @@ using Body = dynamics::StageBody::Kind;
 
 constexpr double furthest_mm = 1e5;
 
-/// [[path]] in a list of SpaceInput.
-template <class Section>
-Declarations<Section> declare_list(const char* path, const char* meaning, std::vector<Section> SpaceInput::*list) {
-  return Declarations<Section>(
-      path, meaning, [list](Scene& s, std::size_t i) -> Section& { return (s.own<SpaceInput>().*list).at(i); },
-      [list](Scene& s, std::size_t n) { (s.own<SpaceInput>().*list).resize(n); });
-}
-
 bool has_carrier(const KindInSpace& system) { return system.frames == KindInSpace::Frames::housing_and_carrier; }
 
 std::vector<Choice<Body>> bodies(const KindInSpace& system) {
@@ -49,12 +41,12 @@ void declare_body(Declarations<Section>& t, const KindInSpace& of, const char* m
 }
 
 Table bearing_table(const KindInSpace& of) {
-  auto bearing =
-      declare_list("bearing",
-                   "A bearing, coupling or mount in its place on the axis. A body that has any is held by these "
-                   "alone. Others have their support of [supports], or the bearings of their gear. They neither move "
-                   "along the axis nor tilt.",
-                   &SpaceInput::bearings);
+  Declarations bearing(
+      "bearing",
+      "A bearing, coupling or mount in its place on the axis. A body that has any is held by these "
+      "alone. Others have their support of [supports], or the bearings of their gear. They neither move "
+      "along the axis nor tilt.",
+      &SpaceInput::bearings);
   bearing.on_request();
   bearing.key("name", &BearingInput::name, "Name in results.").required();
   declare_body(bearing, of, "The body that it holds.");
@@ -211,8 +203,8 @@ Table bearing_table(const KindInSpace& of) {
 }
 
 Table load_table(const KindInSpace& of) {
-  auto load = declare_list("load", "A force and a moment on a body from without, beside the torque of [stage].",
-                           &SpaceInput::loads);
+  Declarations load("load", "A force and a moment on a body from without, beside the torque of [stage].",
+                    &SpaceInput::loads);
   load.on_request();
   load.key("name", &LoadInput::name, "Name in results.").required();
   declare_body(load, of, "The body on which it acts.");
@@ -239,10 +231,7 @@ Table load_table(const KindInSpace& of) {
 }
 
 Table gravity_table(const KindInSpace& of) {
-  Declarations<GravityInput> gravity("gravity", "Weight of all bodies.", [](Scene& s, std::size_t) -> GravityInput& {
-    auto& g = s.own<SpaceInput>().gravity;
-    return g ? *g : g.emplace();
-  });
+  Declarations<GravityInput> gravity("gravity", "Weight of all bodies.", &SpaceInput::gravity);
   gravity.on_request();
   gravity.key("acceleration_m_per_s2", &GravityInput::acceleration, "Acceleration of gravity.")
       .fallback(9.80665, "standard gravity")
@@ -282,7 +271,7 @@ Table bearing_laws_key() {
 Table tilt_inertia_table(const KindInSpace& of) {
   Declarations<TiltInertiaInput> tilting(
       "tilt_inertia", "Moments of inertia about an axis across the body's own, through the middle of the face.",
-      [](Scene& s, std::size_t) -> TiltInertiaInput& { return s.own<SpaceInput>().tilt_inertia; });
+      &SpaceInput::tilt_inertia);
   tilting.on_request();
   for (const auto& body : of.bodies)
     tilting.key(fmt::format("{}_kg_m2", body.name), body.tilt_inertia, fmt::format("Of the {}.", body.name))

@@ -38,18 +38,13 @@ Table gear_table(const char* path, const char* meaning, HubGearInput TorsionalIn
   return gear.done();
 }
 
-/// A table whose keys are values of the inputs themselves.
-Declarations<TorsionalInput> own_table(const char* path, const char* meaning) {
-  return {path, meaning, [](Scene& s, std::size_t) -> TorsionalInput& { return s.own<TorsionalInput>(); }};
-}
-
 std::vector<Table> tables() {
   Declarations stage("stage", "", &Scene::stage);
   declare_centre_distance(stage).required();
-  auto load = own_table("stage", "");
+  Declarations<TorsionalInput> load("stage", "");
   load.key("pinion_torque_Nm", &TorsionalInput::torque, "Torque that drives the pinion.").above(0, 1e9).required();
   stage.add(load.done());
-  auto drive = own_table("drive", "The machine on the shaft of the pinion.");
+  Declarations<TorsionalInput> drive("drive", "The machine on the shaft of the pinion.");
   drive.optional();
   drive.key("inertia_kg_m2", &TorsionalInput::drive, "Its moment of inertia.").fallback(0.0, "none").from(0, 1e6);
   auto mesh =

@@ -17,17 +17,8 @@ namespace annulus::app {
 
 namespace {
 
-TrainInput& input_of(Scene& scene) { return scene.own<TrainInput>(); }
-
-template <class Section>
-Declarations<Section> declare_list(const char* path, const char* meaning, std::vector<Section> TrainInput::*list) {
-  return Declarations<Section>(
-      path, meaning, [list](Scene& s, std::size_t i) -> Section& { return (input_of(s).*list).at(i); },
-      [list](Scene& s, std::size_t n) { (input_of(s).*list).resize(n); });
-}
-
 Table train_stage_table() {
-  Declarations<TrainInput> stage("stage", "", [](Scene& s, std::size_t) -> TrainInput& { return input_of(s); });
+  Declarations<TrainInput> stage("stage", "");
   stage.key("speed_factor", &TrainInput::speed_factor, "Speeds of the train over those of the scene of its first part.")
       .fallback(1.0, "as in that scene")
       .above(0, 1e6);
@@ -35,10 +26,10 @@ Table train_stage_table() {
 }
 
 Table part_table() {
-  auto part = declare_list("part",
-                           "A gear set of the train, by a scene of its own. The first one states speed and torque; "
-                           "those of the others follow through the shafts.",
-                           &TrainInput::parts);
+  Declarations part("part",
+                    "A gear set of the train, by a scene of its own. The first one states speed and torque; "
+                    "those of the others follow through the shafts.",
+                    &TrainInput::parts);
   part.key("name", &TrainInput::Part::name, "Name in results, and of the folder of its results.").required();
   part.key("file", &TrainInput::Part::file,
            "Scene of the part, with [dynamics] and a single ring; a path relative to this scene, in its folder or "
@@ -48,7 +39,7 @@ Table part_table() {
 }
 
 Table shaft_table() {
-  auto shaft = declare_list("shaft", "A shaft between two parts.", &TrainInput::shafts);
+  Declarations shaft("shaft", "A shaft between two parts.", &TrainInput::shafts);
   shaft.key("name", &TrainInput::Shaft::name, "Name in results.").required();
   for (const auto& [key, member] : {std::pair{"from", &TrainInput::Shaft::from}, {"to", &TrainInput::Shaft::to}})
     shaft
@@ -90,7 +81,7 @@ class TrainChecker : KeyChecks {
   void run() {
     if (PartBeingRead::any()) return problem("stage.kind", "cannot be that of a part");
     if (!scene_.dynamics) problems_.push_back({0, 0, "dynamics: the table is missing; a train is a lumped model"});
-    auto& input = input_of(scene_);
+    auto& input = scene_.own<TrainInput>();
     for (std::size_t i = 0; i < input.parts.size(); ++i) {
       name("part.name", "parts", input.parts, i);
       if (usable("part.name", i) && is_name_of_run(input.parts[i].name))

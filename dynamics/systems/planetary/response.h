@@ -34,7 +34,7 @@ struct DynamicResponse : SteadyOutcome {
 /// infinite load sharing means instants without load.
 ///
 /// Throws InputError when the stage or the options are not usable (no speed, no torque, a load out of balance because
-/// no support resists it), SolverError when the integrator fails.
+/// no support resists it, small motions that grow), SolverError when the integrator fails.
 [[nodiscard]] DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options = {});
 /// The system that it solves. Throws InputError when the stage is not usable.
 [[nodiscard]] LumpedCase lumped_case(const PlanetaryStage& stage);

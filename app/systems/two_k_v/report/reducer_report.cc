@@ -1,8 +1,8 @@
 #include "app/systems/two_k_v/report/reducer_report_parts.h"
-#include "app/systems/two_k_v/two_k_v_input.h"
 
 #include <fmt/format.h>
 
+#include "app/systems/two_k_v/two_k_v_input.h"
 #include "core/units.h"
 
 namespace annulus::app {
