@@ -38,16 +38,16 @@ ComparedQuantity quantity_of(const FigureSpec& declared, const std::vector<const
     Measured shown{variant->name, value * spec.scale, error * spec.scale};
     if (spread) shown.spread = spread->scaled(spec.scale);
     compared.cells.push_back(measured(shown.value, shown.error));
-    compared.si.rings.push_back({variant->name, value, error, spread});
-    compared.shown.rings.push_back(shown);
+    compared.si.variants.push_back({variant->name, value, error, spread});
+    compared.shown.variants.push_back(shown);
   }
-  const auto& rings = compared.shown.rings;
-  if (rings.size() < 2) return compared;
-  if (std::all_of(rings.begin(), rings.end(), [&](const Measured& m) { return same(rings.front(), m); })) {
+  const auto& shown = compared.shown.variants;
+  if (shown.size() < 2) return compared;
+  if (std::all_of(shown.begin(), shown.end(), [&](const Measured& m) { return same(shown.front(), m); })) {
     compared.differences = {"the same everywhere"};
   } else {
-    for (std::size_t i = 1; i < rings.size(); ++i)
-      compared.differences.push_back(difference_text(rings.front(), rings[i], spec.digits));
+    for (std::size_t i = 1; i < shown.size(); ++i)
+      compared.differences.push_back(difference_text(shown.front(), shown[i], spec.digits));
   }
   return compared;
 }
@@ -61,7 +61,7 @@ Comparison::Comparison(const std::vector<ComparedRun>& runs)
   for (const auto& spec : *runs.front().specs) {
     if (!spec.compared) continue;
     auto compared = quantity_of(spec, all);
-    if (!compared.si.rings.empty()) quantities.push_back(std::move(compared));
+    if (!compared.si.variants.empty()) quantities.push_back(std::move(compared));
   }
   if (inputs.empty() && inputs_remark.empty()) inputs_remark = "No input differs.";
 }

@@ -73,13 +73,13 @@ std::string input_text(const Json& value) {
   return value.is_number() ? to_text(value.get<double>()) : value.dump();
 }
 
-/// Inputs of one variant: those of the stage and those of its ring.
-std::map<std::string, std::string> inputs_of(const Json& json, const std::string& ring) {
+/// Inputs of one variant: its own and those of all.
+std::map<std::string, std::string> inputs_of(const Json& json, const std::string& variant) {
   std::map<std::string, std::string> inputs;
   if (!json.contains("inputs")) return inputs;
   for (const auto& input : json.at("inputs")) {
-    const std::string key = input.at("key"), own = input.value("ring", "");
-    if (key == "title" || (!own.empty() && own != ring)) continue;
+    const std::string key = input.at("key"), own = input.value(key.substr(0, key.find('.')), "");
+    if (key == "title" || (!own.empty() && own != variant)) continue;
     const auto& value = input.at("value");
     auto& text = inputs[key];
     // Tables of a list (sweeps, random inputs) have the same keys.

@@ -10,10 +10,10 @@
 
 namespace annulus::app {
 
-/// One ring of a finished run with its figures; a stage without rings has one variant, or two where it compares given
-/// with computed stiffness.
+/// A variant of a finished run with its figures; a scene without variants has one, or two where it compares given with
+/// computed stiffness.
 struct ComparedVariant {
-  std::string name{};                           ///< of the run, and of the ring where a run has several
+  std::string name{};                           ///< of the run, and of the variant where a run has several
   FigureSet figures{};                          ///< SI
   std::map<std::string, std::string> inputs{};  ///< by key, as in a scene file
 };

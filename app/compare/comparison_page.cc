@@ -138,8 +138,8 @@ Json comparison_json(const std::vector<ComparedRun>& runs) {
   const Comparison comparison(runs);
   for (const auto& quantity : comparison.quantities) {
     Json item = {{"key", quantity.spec.key}};  // which states the unit, as everywhere in files
-    for (const auto& m : quantity.si.rings) {
-      Json value = {{"variant", m.ring}, {"value", json_number(m.value)}, {"error", json_number(m.error)}};
+    for (const auto& m : quantity.si.variants) {
+      Json value = {{"variant", m.variant}, {"value", json_number(m.value)}, {"error", json_number(m.error)}};
       if (m.spread) value["spread"] = to_json(*m.spread);
       item["values"].push_back(std::move(value));
     }
@@ -157,9 +157,9 @@ std::string comparison_csv(const std::vector<ComparedRun>& runs) {
   for (const auto& quantity : Comparison(runs).quantities) {
     const auto& spec = quantity.spec;
     const auto& shown = quantity.shown;
-    const auto& first = shown.rings.front();
-    for (const auto& m : shown.rings) {
-      text += fmt::format("{},{},{},{},{},", csv_cell(spec.title), spec.unit, csv_cell(m.ring), csv_cell(m.value),
+    const auto& first = shown.variants.front();
+    for (const auto& m : shown.variants) {
+      text += fmt::format("{},{},{},{},{},", csv_cell(spec.title), spec.unit, csv_cell(m.variant), csv_cell(m.value),
                           csv_cell(m.error));
       text += &m == &first ? ",,\n"
                            : fmt::format("{},{},{}\n", csv_cell(m.value - first.value), csv_cell(m.error + first.error),
@@ -171,7 +171,7 @@ std::string comparison_csv(const std::vector<ComparedRun>& runs) {
 
 Page comparison_page(const std::vector<ComparedRun>& runs) {
   const Comparison comparison(runs);
-  std::vector<RingQuantity> plain;
+  std::vector<VariantQuantity> plain;
   for (const auto& quantity : comparison.quantities) plain.push_back(quantity.si);
   std::vector<Text> names;
   List scenes;

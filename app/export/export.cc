@@ -94,19 +94,19 @@ void export_table(const std::filesystem::path& source, const ExportFormat& forma
 }
 
 std::vector<std::filesystem::path> write_rexs(const Scene& scene, const SceneExport& wanted) {
-  write_file(wanted.file, rexs_text(scene, wanted.ring));
+  write_file(wanted.file, rexs_text(scene, wanted.variant));
   return {wanted.file};
 }
 
 /// The matrices of its lumped system.
 template <void (*write)(const std::filesystem::path& file, const NamedArrays& arrays)>
 std::vector<std::filesystem::path> write_matrices(const Scene& scene, const SceneExport& wanted) {
-  write(wanted.file, lumped_matrices(scene, wanted.ring, wanted.threads));
+  write(wanted.file, lumped_matrices(scene, wanted.variant, wanted.threads));
   return {wanted.file};
 }
 
 std::vector<std::filesystem::path> write_matrices_apart(const Scene& scene, const SceneExport& wanted) {
-  return write_matrix_market(wanted.file, lumped_matrices(scene, wanted.ring, wanted.threads));
+  return write_matrix_market(wanted.file, lumped_matrices(scene, wanted.variant, wanted.threads));
 }
 
 std::string formats_of_scenes() {
@@ -133,7 +133,7 @@ const std::vector<ExportFormat>& export_formats() {
 }
 
 std::vector<std::filesystem::path> export_file(const std::filesystem::path& source, const std::string& format,
-                                               const std::filesystem::path& out, const std::string& ring, int threads) {
+                                               const std::filesystem::path& out, const std::string& variant, int threads) {
   const auto& formats = export_formats();
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == format; });
   if (found == formats.end()) {
@@ -164,8 +164,8 @@ std::vector<std::filesystem::path> export_file(const std::filesystem::path& sour
   if (is_scene) {
     const Scene scene = read_scene(source);
     const auto variants = variant_names(scene);
-    const bool one = ring.empty() && variants.size() == 1;
-    return found->write_scene(scene, {.ring = one ? variants.front() : ring, .threads = threads, .file = file});
+    const bool one = variant.empty() && variants.size() == 1;
+    return found->write_scene(scene, {.variant = one ? variants.front() : variant, .threads = threads, .file = file});
   }
   if (is_picture)
     write_png(source, file);

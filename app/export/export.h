@@ -12,7 +12,7 @@ namespace annulus::app {
 
 /// What an export of a scene needs beside the scene.
 struct SceneExport {
-  std::string ring;  ///< of a scene with several
+  std::string variant;  ///< of a scene with several
   int threads = 1;
   std::filesystem::path file;
 };
@@ -26,7 +26,7 @@ struct ExportFormat {
 };
 [[nodiscard]] const std::vector<ExportFormat>& export_formats();
 
-/// Writes `source` in `format`; `out` empty: beside the source, with the format's ending; `ring` chooses one of a scene
+/// Writes `source` in `format`; `out` empty: beside the source, with the format's ending; `variant` chooses one of a scene
 /// with several. Returns what was written.
 ///
 ///     stiffness_<mesh>.csv       all formats but rexs, mtx and png
@@ -38,7 +38,7 @@ struct ExportFormat {
 /// Throws InputError when the source is none of these or cannot be had in that format.
 [[nodiscard]] std::vector<std::filesystem::path> export_file(const std::filesystem::path& source,
                                                              const std::string& format,
-                                                             const std::filesystem::path& out, const std::string& ring,
+                                                             const std::filesystem::path& out, const std::string& variant,
                                                              int threads);
 
 /// A picture in pixels. Throws InputError naming the file.

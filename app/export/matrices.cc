@@ -8,6 +8,7 @@
 #include "app/model/gear_system.h"
 #include "app/results/content_id.h"
 #include "app/run/solved_case.h"
+#include "app/scene/overrides.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "dynamics/modes/linear_system.h"
@@ -25,12 +26,12 @@ NamedArray array_of(const char* name, const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-NamedArrays lumped_matrices(const Scene& scene, const std::string& ring, int threads) {
-  const auto found = solved_case(scene, ring, threads);
+NamedArrays lumped_matrices(const Scene& scene, const std::string& variant, int threads) {
+  const auto found = solved_case(scene, variant, threads);
   const auto linear = dynamics::linear_system(found.system);
   return {{{"annulus_version", version()},
            {"scene", scene.title},
-           {"ring", ring},
+           {variant_word(scene.stage.kind), variant},
            {"equation",
             "M q'' + (C + G) q' + (K + K_rotation) q = load; K and C contain the meshes, B K_mesh B' and B c_mesh B'"},
            {"coordinates", fmt::format("{}", fmt::join(linear.dofs, " "))},

@@ -8,7 +8,7 @@
 
 namespace annulus::app {
 
-std::string rexs_text(const Scene& scene, const std::string& ring) { return make_system(scene)->rexs(ring); }
+std::string rexs_text(const Scene& scene, const std::string& variant) { return make_system(scene)->rexs(variant); }
 
 RexsScene read_rexs(const std::filesystem::path& path) {
   std::error_code error;

@@ -32,6 +32,7 @@ PlanCost GearSystem::cost(int threads) const {
 Plan GearSystem::plan(int threads) const {
   Plan plan;
   plan.title = scene_.title;
+  plan.variant_word = variant_word(scene_.stage.kind);
   plan.meshes = meshes();
   const auto planned = responses();
   plan.studies = plan_studies(*this, planned);
@@ -117,7 +118,7 @@ std::vector<MeshModel> tables_to_solve(const Scene& nominal, const Scene& change
   return list;
 }
 
-std::string GearSystem::rexs(const std::string& /*ring*/) const {
+std::string GearSystem::rexs(const std::string& /*variant*/) const {
   if (!scene_kind(scene().stage.kind).gears)
     throw InputError(fmt::format("{}: a {} has no gears of its own; export the scenes of its parts",
                                  scene().file.string(), scene().stage.kind));

@@ -72,7 +72,7 @@ class GearSystem {
   [[nodiscard]] virtual std::vector<MeshModel> model_meshes() const { return meshes(); }
   /// Those of one lumped model, by their places in model_meshes().
   [[nodiscard]] virtual std::vector<std::size_t> meshes_of(std::size_t variant) const;
-  /// Stiffness of one of these meshes: solved into OUT/<ring> or cached, prescribed, or by a formula. Throws what
+  /// Stiffness of one of these meshes: solved into OUT/<variant> or cached, prescribed, or by a formula. Throws what
   /// solving throws, with its place in the scene.
   [[nodiscard]] virtual MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const = 0;
   /// The lumped model of a variant on the stiffness of its meshes, which are referred to. Values of prescribed
@@ -104,9 +104,9 @@ class GearSystem {
     return std::nullopt;
   }
 
-  /// Its gear data as REXS, with the ring of that name (export/rexs.h). Throws InputError where REXS cannot describe
+  /// Its gear data as REXS, of the variant of that name (export/rexs.h). Throws InputError where REXS cannot describe
   /// it.
-  [[nodiscard]] virtual std::string rexs(const std::string& ring) const;
+  [[nodiscard]] virtual std::string rexs(const std::string& variant) const;
   /// Frame and meaning of the coordinates of its lumped systems, for files of their matrices.
   [[nodiscard]] virtual std::string coordinates() const { return "lengths, m"; }
   /// Bodies at which it can be part of a train; the lumped models then have LumpedModel::Abilities::lumped. Empty: it

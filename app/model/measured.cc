@@ -20,7 +20,7 @@ bool told_apart(const Measured& a, const Measured& b) {
 }
 
 std::string both_text(const Measured& a, const Measured& b, int digits) {
-  return fmt::format("'{}' {} and '{}' {}", a.ring, to_text(a.value, digits), b.ring, to_text(b.value, digits));
+  return fmt::format("'{}' {} and '{}' {}", a.variant, to_text(a.value, digits), b.variant, to_text(b.value, digits));
 }
 
 std::string undecided_text(const Measured& a, const Measured& b, int digits) {
@@ -30,12 +30,12 @@ std::string undecided_text(const Measured& a, const Measured& b, int digits) {
 
 std::string difference_text(const Measured& a, const Measured& b, int digits) {
   const double difference = b.value - a.value;
-  if (same(a, b)) return fmt::format("'{}' and '{}' are the same", a.ring, b.ring);
+  if (same(a, b)) return fmt::format("'{}' and '{}' are the same", a.variant, b.variant);
   if (!told_apart(a, b)) return undecided_text(a, b, digits);
   const std::string amount =
       a.value != 0 ? fmt::format("{} %", to_text(100 * std::abs(difference / a.value), 2)) : to_text(difference, 2);
-  return fmt::format("'{}' {} is {} {} than '{}' {}, more than the error bars together", b.ring,
-                     to_text(b.value, digits), amount, difference > 0 ? "larger" : "smaller", a.ring,
+  return fmt::format("'{}' {} is {} {} than '{}' {}, more than the error bars together", b.variant,
+                     to_text(b.value, digits), amount, difference > 0 ? "larger" : "smaller", a.variant,
                      to_text(a.value, digits));
 }
 

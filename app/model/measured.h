@@ -8,9 +8,9 @@
 
 namespace annulus::app {
 
-/// A number with its absolute error, of one ring; where inputs are not known with its spread.
+/// A number with its absolute error, of one variant; where inputs are not known with its spread.
 struct Measured {
-  std::string ring;
+  std::string variant;
   double value = 0, error = 0;
   std::optional<Spread> spread{};
 
@@ -18,11 +18,11 @@ struct Measured {
   [[nodiscard]] double likely() const { return spread ? spread->median : value; }
 };
 
-/// A quantity over several rings, of one scene or of several, by the names references use.
-struct RingQuantity {
+/// A quantity over several variants, of one scene or of several, by the names references use.
+struct VariantQuantity {
   std::string key;   ///< "load_sharing"
   std::string name;  ///< for people: "Load sharing of the sun meshes, averaged over a mesh cycle"
-  std::vector<Measured> rings{};
+  std::vector<Measured> variants{};
   int digits = 4;
 };
 

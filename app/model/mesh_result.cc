@@ -337,7 +337,7 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   const std::vector<std::string> keys = {"load_N", "mesh_phase"};  // by which rows are found
   result.positions.round(keys);
   for (const auto& [name, member] : side_tables) (result.*member).round(keys);
-  if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
+  if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.variant);
   if (solved.fields.size() == 2) {  // the pinion's, then the wheel's
     const auto& pinion = solved.fields.front();
     result.fields.push_back(deformed_mesh(pinion, solved.fields.back(), solved.positions[pinion.position],

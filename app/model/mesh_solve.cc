@@ -17,9 +17,9 @@ namespace {
 
 constexpr const char* cached_meshes = "meshes";
 
-/// All that the result of a mesh depends on. Pictures name the ring; studies go without fields.
+/// All that the result of a mesh depends on. Pictures name the variant; studies go without fields.
 std::string result_id(const MeshModel& model, const RunOptions& options) {
-  return identity_of(model.id(), model.mesh, model.ring, options.for_study);
+  return identity_of(model.id(), model.mesh, model.variant, options.for_study);
 }
 
 std::vector<geometry::PointData> point_data(const fem::BodyField& field) {

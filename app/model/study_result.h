@@ -164,6 +164,7 @@ struct OptimiseResults {
 
 struct StudyResults {
   std::vector<std::string> variants;  ///< names; a single empty one for kinds without variants
+  std::string variant_word;           ///< what these are: "ring"
   std::vector<FigureSpec> figures;
   std::vector<FigureSet> nominal{};  ///< by variant
   std::vector<SweepResult> sweeps{};

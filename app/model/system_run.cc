@@ -87,7 +87,7 @@ std::optional<CostRun> SystemRun::actual(const CostStep& step) const {
   if (step.kind == CostKind::response) {
     const auto variants = system->run_variants();
     for (std::size_t i = 0; i < responses.size(); ++i)
-      if (variants[i].folder == step.ring && !responses[i]->reused)
+      if (variants[i].folder == step.variant && !responses[i]->reused)
         return actual_time(step.size, responses[i]->seconds);
     return std::nullopt;
   }
@@ -101,7 +101,7 @@ std::optional<CostRun> SystemRun::actual(const CostStep& step) const {
   }
   for (const auto* mesh : meshes()) {
     if (step.kind == CostKind::mesh && mesh->model.label() == step.label) return actual_mesh(step.size, *mesh);
-    if (step.kind == CostKind::coupling && mesh->model.ring == step.ring)
+    if (step.kind == CostKind::coupling && mesh->model.variant == step.variant)
       if (auto found = system->actual_coupling(step.size, *mesh)) return found;
   }
   return std::nullopt;

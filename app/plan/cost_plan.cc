@@ -229,7 +229,7 @@ PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<Plann
         cost_law(size.work).name, size.unknowns, model.positions);
     add({.kind = CostKind::mesh,
          .label = model.label(),
-         .ring = model.ring,
+         .variant = model.variant,
          .size = size,
          .cause = std::move(cause),
          .expected_error = expected_error_of(model, size)});
@@ -243,8 +243,8 @@ PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<Plann
     }
     if (coupled(model))
       add({.kind = CostKind::coupling,
-           .label = fmt::format("coupling through '{}'", model.ring),
-           .ring = model.ring,
+           .label = fmt::format("coupling through '{}'", model.variant),
+           .variant = model.variant,
            .size = coupling_size(model),
            .cause = fmt::format("it follows from `accuracy` and {} ring positions", model.positions)});
   }
@@ -254,7 +254,7 @@ PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<Plann
     if (elements) size.held_MB += loaded_elements_MB;
     add({.kind = CostKind::response,
          .label = response.label,
-         .ring = response.ring,
+         .variant = response.variant,
          .size = size,
          .cause = "it follows from dynamics.mesh_cycles or, without it, from the period of the errors"});
     auto& step = cost.steps.back();

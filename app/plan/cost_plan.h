@@ -18,7 +18,7 @@ enum class CostKind { mesh, coupling, response, files, studies };
 struct CostStep {
   CostKind kind = CostKind::mesh;
   std::string label{};                     ///< for people: "sun-planet mesh", "coupling through 'pinned'"
-  std::string ring{};                      ///< empty for the sun mesh and studies
+  std::string variant{};                   ///< empty for what all variants share, and for studies
   CostRun size{};                          ///< as predicted; of no meaning for files and studies
   std::string cause{};                     ///< "it follows from dynamics.mesh_cycles": what would change its cost
   PredictedCost predicted{};               ///< infinite where time integration needs endless steps
@@ -61,7 +61,7 @@ struct PlanCost {
 
 /// A response of the lumped model, of the size `size`.
 struct PlannedResponse {
-  std::string label, ring;
+  std::string label, variant;
   CostRun size;
   /// Processor time that the search for other motions may take beyond that of `size`, at worst.
   double search_s = 0;

@@ -156,7 +156,7 @@ std::string MeshModel::id() const {
   return id.id();
 }
 
-std::string MeshModel::label() const { return ring.empty() ? title : fmt::format("{} of '{}'", title, ring); }
+std::string MeshModel::label() const { return variant.empty() ? title : fmt::format("{} of '{}'", title, variant); }
 
 fem::FaceFeatures face_features(const Scene& scene, const GearInput& pinion, const std::string& pinion_name,
                                 const GearInput& wheel, const std::string& wheel_name, double misalignment,
@@ -178,7 +178,7 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
   MeshModel model;
   model.mesh = mesh.mesh;
   model.title = mesh.title;
-  model.ring = mesh.ring;
+  model.variant = mesh.variant;
   model.pinion_body = mesh.pinion_name;
   model.wheel_body = mesh.wheel_name;
   if (mesh.input.stiffness != StiffnessShape::computed) {

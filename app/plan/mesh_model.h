@@ -26,7 +26,7 @@ struct MeshModel;
 struct MeshModel : fem::MeshChoice {
   std::string mesh{};                                      ///< its name in files, keys and tables: "sun_planet"
   std::string title{};                                     ///< for people: "sun-planet mesh"
-  std::string ring{};                                      ///< empty for the sun mesh, which all rings share
+  std::string variant{};                                   ///< that it belongs to; empty: to all of them
   std::string pinion_body{"pinion"}, wheel_body{"wheel"};  ///< names of its bodies: "planet"; "sun", "wheel"
   std::string fidelity{};                                  ///< fem::fidelity_name(), or "prescribed" by the scene
   std::optional<fem::LoadedMeshProblem> problem{};         ///< absent when the stiffness is prescribed
@@ -49,7 +49,7 @@ struct MeshModel : fem::MeshChoice {
 struct GearMesh {
   std::string mesh;    ///< name of files and tables
   std::string title;   ///< for people
-  std::string ring{};  ///< name of the ring, where the wheel is one of several
+  std::string variant{};  ///< that it belongs to; empty: to all of them
   const geometry::GearPair& pair;
   const MeshInput& input;
   const HubGearInput& pinion;  ///< in the roles they have in the pair

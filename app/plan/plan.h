@@ -38,6 +38,7 @@ struct Plan {
   std::vector<Input> inputs;         ///< all inputs with a value, and the ones derived from others
   std::vector<Quantity> quantities;  ///< of all variants
   std::vector<std::pair<std::string, std::vector<Quantity>>> variants;  ///< of each
+  std::string variant_word;                                             ///< what these are: "ring"
   std::vector<MeshModel> meshes;                                        ///< those of all variants first
   std::vector<DofPlan> dofs;
   std::vector<Decision> motion;      ///< how the motion is found in time

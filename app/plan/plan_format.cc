@@ -89,7 +89,7 @@ std::string study_lines(const Plan& plan) {
   std::string text = plan.studies.empty() ? "" : "\nStudies\n";
   for (const auto& s : plan.studies) {
     text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.description, s.responses,
-                        plan.variants.empty() ? "" : " of all rings", duration_text(s.seconds));
+                        plan.variants.empty() ? "" : fmt::format(" of all {}s", plan.variant_word), duration_text(s.seconds));
     text += s.tables ? fmt::format("; {} own stiffness tables\n", s.tables) : ", on the tables of the scene\n";
   }
   return text;
@@ -115,7 +115,7 @@ std::string input_lines(const std::vector<Input>& inputs) {
   return text;
 }
 
-/// Those of several rings once.
+/// Those of several variants once.
 std::string assumed_lines(const std::vector<Input>& inputs) {
   std::string text;
   std::set<std::string> seen;
@@ -150,7 +150,8 @@ std::string to_text(const Plan& plan) {
   std::string text =
       plan.title + "\n\nInputs (origin: scene, default, derived; * assumed)\n" + input_lines(plan.inputs);
   text += "\nDerived\n" + quantity_lines(plan.quantities);
-  for (const auto& [name, quantities] : plan.variants) text += "  ring '" + name + "'\n" + quantity_lines(quantities);
+  for (const auto& [name, quantities] : plan.variants)
+    text += fmt::format("  {} '{}'\n", plan.variant_word, name) + quantity_lines(quantities);
 
   text += "\nMeshes and bodies\n";
   for (const auto& mesh : plan.meshes) text += "  " + mesh.label() + "\n" + decision_lines(decisions(mesh));
@@ -173,10 +174,10 @@ std::string to_json(const Plan& plan) {
   json["title"] = plan.title;
   json["inputs"] = inputs_json(plan.inputs);
   json["stage"] = quantities_json(plan.quantities);
-  for (const auto& [name, quantities] : plan.variants) json["rings"][name] = quantities_json(quantities);
+  for (const auto& [name, quantities] : plan.variants) json[plan.variant_word + "s"][name] = quantities_json(quantities);
   for (const auto& mesh : plan.meshes) {
     Json item = {{"mesh", mesh.mesh}, {"model", mesh.fidelity}, {"reason", mesh.reason}};
-    if (!mesh.ring.empty()) item["ring"] = mesh.ring;
+    if (!mesh.variant.empty()) item[plan.variant_word] = mesh.variant;
     item["decisions"] = decisions(mesh);
     if (mesh.computed()) {
       item["phases"] = mesh.problem->phases;

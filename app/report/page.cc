@@ -124,7 +124,7 @@ class BlockWriter {
       const auto first = pictures.size();
       const auto drawn = std::visit([this](const auto& d) { return written(d); }, picture.drawn);
       narrow = one && is_narrow(pictures[first].svg);
-      cells += "<div" + choice("ring", picture.ring) + choice("mesh", picture.mesh) + ">";
+      cells += "<div" + choice("variant", picture.variant) + choice("mesh", picture.mesh) + ">";
       if (!picture.title.empty()) cells += "<h3>" + app::html(picture.title) + "</h3>";
       cells += drawn;
       if (!picture.caption.empty()) cells += "<figcaption>" + app::html(picture.caption) + "</figcaption>";
@@ -280,7 +280,7 @@ RenderedPage rendered(const Page& page) {
   if (writer.packs) script += "<script>annulus.begin();</script>\n";
   return {fmt::format(fmt::runtime(page_template), fmt::arg("title", escape(page.title)), fmt::arg("style", page_style),
                       fmt::arg("sub", html(page.sub)), fmt::arg("summary", summary), fmt::arg("links", links),
-                      fmt::arg("choices", choice_html({"ring", "Ring", page.rings}) +
+                      fmt::arg("choices", choice_html({"variant", page.variant_word.c_str(), page.variants}) +
                                               choice_html({"mesh", "Mesh", page.meshes}) +
                                               choice_html({"line", page.line_kind.c_str(), page.lines, true})),
                       fmt::arg("sections", sections), fmt::arg("scripts", script)),

@@ -49,7 +49,7 @@ using Drawn = std::variant<Plot, BarChart, ColourMap, SpreadPlot, Drawing, Defor
 struct Picture {
   Drawn drawn;
   Text title{}, caption{};
-  std::string ring{}, mesh{};  ///< shown where these are chosen; empty: always
+  std::string variant{}, mesh{};  ///< shown where these are chosen; empty: always
 
   template <class Kind>
   requires std::is_constructible_v<Drawn, Kind> Picture(Kind kind, Text above = {}, Text below = {})
@@ -124,8 +124,9 @@ struct Page {
   Text sub{};
   Blocks summary{};
   std::vector<Section> sections{};
-  std::vector<std::string> rings{}, meshes{};  ///< to choose from; a single one needs no choice
-  std::string line_kind{};                     ///< what the lines are, for the reader: "Planet"
+  std::vector<std::string> variants{}, meshes{};  ///< to choose from; a single one needs no choice
+  std::string variant_word{};                     ///< what these variants are, for the reader: "ring"
+  std::string line_kind{};                        ///< what the lines are, for the reader: "Planet"
   std::vector<std::string> lines{};            ///< their labels, all of them or one at a time
 };
 

@@ -27,7 +27,7 @@ Json inputs_json(const std::vector<Input>& inputs) {
                  {"value", value_json(input.value)},
                  {"unit", input.unit},
                  {"origin", to_text(input.origin)}};
-    if (!input.variant.empty()) item["ring"] = input.variant;
+    if (!input.variant.empty()) item[input.key.substr(0, input.key.find('.'))] = input.variant;
     if (!input.assumed.empty()) item["assumed"] = input.assumed;
     if (!input.note.empty() && input.origin != Origin::scene) item["note"] = input.note;
     list.push_back(std::move(item));

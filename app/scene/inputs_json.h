@@ -8,7 +8,7 @@
 
 namespace annulus::app {
 
-/// Inputs with their origin as a JSON array: key, value, unit, origin; ring, assumed and note where there are
+/// Inputs with their origin as a JSON array: key, value, unit, origin; the variant (under the name of its table), assumed and note where there are
 /// any. Values are in the unit of their key, "inf" where one is infinite.
 [[nodiscard]] Json inputs_json(const std::vector<Input>& inputs);
 

@@ -94,6 +94,12 @@ std::vector<std::string> variant_names(const Scene& scene) {
   return {};
 }
 
+std::string variant_word(const std::string& kind) {
+  for (const auto& table : schema(kind))
+    if (table.variants) return table.path;
+  return "variant";
+}
+
 InputTarget find_input(const Scene& scene, const std::string& path) {
   auto [key, index] = split_path(path);
   InputTarget target;

@@ -42,6 +42,8 @@ struct InputTarget {
 
 /// Names of the variants that a scene compares, in their order; empty of kinds without.
 [[nodiscard]] std::vector<std::string> variant_names(const Scene& scene);
+/// What a variant of the kind is, by the table that makes one: "ring"; otherwise "variant".
+[[nodiscard]] std::string variant_word(const std::string& kind);
 
 /// The present value in the unit of the key, of one table of an array or of the first that has it; nothing when there
 /// is none.

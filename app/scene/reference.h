@@ -8,11 +8,11 @@ namespace annulus::app {
 
 /// Published statements about a scene, read from a file with their source (data/scenes/reference).
 struct Reference {
-  /// "The first ring has the largest value, the last the smallest."
+  /// "The first variant has the largest value, the last the smallest."
   struct Order {
     std::string quantity;            ///< one of comparison.cc's quantities: "ring_stiffness", "load_sharing", ...
-    std::vector<std::string> rings;  ///< largest first; a single one: larger than all others
-    std::vector<double> values;      ///< published numbers, one per ring, or none
+    std::vector<std::string> variants;  ///< largest first; a single one: larger than all others
+    std::vector<double> values;      ///< published numbers, one per variant, or none
     double margin = 0;  ///< relative difference that the statement asks for ("clearly"); 0: any beyond the error bars
     std::string statement, where;
   };

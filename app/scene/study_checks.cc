@@ -167,8 +167,10 @@ class StudyChecker : KeyChecks {
                                               o.weights.size(), o.objective.size()));
     if (o.population % 2) problem("optimise.population", "must be even: parents are crossed in pairs");
     const auto variants = variant_names(scene_);
-    if (o.ring && std::find(variants.begin(), variants.end(), *o.ring) == variants.end())
-      problem("optimise.ring", "there is no ring of this name in the scene");
+    if (o.variant && std::find(variants.begin(), variants.end(), *o.variant) == variants.end()) {
+      const auto word = variant_word(scene_.stage.kind);
+      problem("optimise." + word, fmt::format("there is no {} of this name in the scene", word));
+    }
     if (scene_.variables.empty()) problem("optimise.objective", "needs an [[optimise.variable]] at least");
     for (std::size_t i = 0; i < scene_.variables.size(); ++i) variable(scene_.variables[i], i);
   }

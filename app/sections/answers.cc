@@ -9,84 +9,85 @@ namespace annulus::app {
 
 namespace {
 
-const RingQuantity* quantity(const std::vector<RingQuantity>& list, const std::string& key) {
-  const auto found = std::find_if(list.begin(), list.end(), [&](const RingQuantity& q) { return q.key == key; });
+const VariantQuantity* quantity(const std::vector<VariantQuantity>& list, const std::string& key) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const VariantQuantity& q) { return q.key == key; });
   return found == list.end() ? nullptr : &*found;
 }
 
-std::vector<Measured> sorted(const RingQuantity& q) {
-  auto rings = q.rings;
-  std::stable_sort(rings.begin(), rings.end(),
+std::vector<Measured> sorted(const VariantQuantity& q) {
+  auto variants = q.variants;
+  std::stable_sort(variants.begin(), variants.end(),
                    [](const Measured& a, const Measured& b) { return a.likely() > b.likely(); });
-  return rings;
+  return variants;
 }
 
-Text stiffness_sentence(const RingQuantity& q) {
-  const auto rings = sorted(q);
-  const auto& stiffest = rings.front();
+Text stiffness_sentence(const VariantQuantity& q) {
+  const auto variants = sorted(q);
+  const auto& stiffest = variants.front();
   const auto value = measured_in_unit({stiffest.value, stiffest.error}, shown_units::stiffness);
-  if (rings.size() < 2) return phrase("The ring mesh of {} has a mean stiffness of {}.", bold(stiffest.ring), value);
+  if (variants.size() < 2) return phrase("{}: {}.", q.name, value);
+  if (same(variants.back(), stiffest)) return phrase("{}: {} everywhere.", q.name, value);
   std::vector<Text> others;
-  for (std::size_t i = 1; i < rings.size(); ++i)
-    others.push_back(bold(rings[i].ring) + " is " +
-                     (same(rings[i], stiffest)
+  for (std::size_t i = 1; i < variants.size(); ++i)
+    others.push_back(bold(variants[i].variant) + " is " +
+                     (same(variants[i], stiffest)
                           ? "as stiff"
-                          : fmt::format("{:.1f} % softer", 100 * (1 - rings[i].value / stiffest.value))));
-  return phrase("Stiffness of the ring mesh: {} is the stiffest ({}); {}.", bold(stiffest.ring), value,
-                enumerated(others));
+                          : fmt::format("{:.1f} % softer", 100 * (1 - variants[i].value / stiffest.value))));
+  return phrase("{}: {} is the stiffest ({}); {}.", q.name, bold(stiffest.variant), value, enumerated(others));
 }
 
 /// Of results over samples: what to expect, before what the nominal inputs give.
-Text spread_sentence(const std::vector<Measured>& rings) {
+Text spread_sentence(const std::vector<Measured>& variants) {
   std::vector<Text> words;
-  for (const auto& r : rings) {
-    const Text of_ring = rings.size() > 1 ? " with " + bold(r.ring) : Text();
-    words.push_back(r.spread ? phrase("{}{}", spread_text(*r.spread, 1), of_ring)
-                             : measured(r.value, r.error) + of_ring);
+  for (const auto& r : variants) {
+    const Text with_variant = variants.size() > 1 ? " with " + bold(r.variant) : Text();
+    words.push_back(r.spread ? phrase("{}{}", spread_text(*r.spread, 1), with_variant)
+                             : measured(r.value, r.error) + with_variant);
   }
   std::vector<Text> nominal;
-  nominal.reserve(rings.size());
-  for (const auto& r : rings) nominal.emplace_back(measured(r.value, r.error));
+  nominal.reserve(variants.size());
+  for (const auto& r : variants) nominal.emplace_back(measured(r.value, r.error));
   return phrase("{} (median, 5 % to 95 % of the samples); {} with the nominal inputs.", enumerated(words),
                 enumerated(nominal));
 }
 
-Text sharing_sentence(const RingQuantity& q) {
-  const auto rings = sorted(q);
-  const auto &low = rings.back(), &high = rings.front();
+Text sharing_sentence(const VariantQuantity& q) {
+  const auto variants = sorted(q);
+  const auto &low = variants.back(), &high = variants.front();
   const Text head = q.name + ": ";
-  if (high.spread) return head + spread_sentence(rings);
-  if (rings.size() == 1) return head + measured(high.value, high.error) + ".";
+  if (high.spread) return head + spread_sentence(variants);
+  if (variants.size() == 1) return head + measured(high.value, high.error) + ".";
   return head +
          phrase("the most loaded planet carries {:.1f} % more than its share with {} and {:.1f} % with {}",
-                100 * (low.value - 1), bold(low.ring), 100 * (high.value - 1), bold(high.ring)) +
+                100 * (low.value - 1), bold(low.variant), 100 * (high.value - 1), bold(high.variant)) +
          (!std::isfinite(high.error + low.error) ? "; the error is not known."
           : told_apart(high, low)                ? "."
                                                  : "; the difference is within the error bars.");
 }
 
-Text factor_sentence(const RingQuantity& q) {
-  const auto rings = sorted(q);
-  if (rings.front().spread) return q.name + ": " + spread_sentence(rings);
+Text factor_sentence(const VariantQuantity& q) {
+  const auto variants = sorted(q);
+  if (variants.front().spread) return q.name + ": " + spread_sentence(variants);
   std::vector<Text> words;
-  words.reserve(rings.size());
-  for (const auto& r : rings)
-    words.push_back(measured(r.value, r.error) + (rings.size() > 1 ? " with " + bold(r.ring) : Text()));
+  words.reserve(variants.size());
+  for (const auto& r : variants)
+    words.push_back(measured(r.value, r.error) + (variants.size() > 1 ? " with " + bold(r.variant) : Text()));
   return phrase("{}: {}.", q.name, enumerated(words));
 }
 
 }  // namespace
 
-Blocks answer_sentences(const std::vector<RingQuantity>& quantities) {
+Blocks answer_sentences(const std::vector<VariantQuantity>& quantities) {
   Blocks blocks;
-  if (const auto* q = quantity(quantities, "ring_stiffness")) blocks += paragraph(stiffness_sentence(*q));
+  for (const auto& q : quantities)
+    if (q.key.ends_with("_stiffness")) blocks += paragraph(stiffness_sentence(q));
   if (const auto* q = quantity(quantities, "load_sharing")) blocks += paragraph(sharing_sentence(*q));
   for (const auto* key : {"dynamic_factor", "peak_factor"})
     if (const auto* q = quantity(quantities, key)) blocks += paragraph(factor_sentence(*q));
   return blocks;
 }
 
-Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::vector<std::string>& names) {
+Blocks answer_picture(const std::vector<VariantQuantity>& quantities, const std::vector<std::string>& names) {
   bool sampled = false;
   constexpr double letter = 6;
   double longest = 0;
@@ -102,13 +103,13 @@ Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::ve
                                   {"peak_factor", "peak factor K_γ K_V"}}) {
     const auto* q = quantity(quantities, key);
     if (q == nullptr) continue;
-    for (const auto& m : q->rings) {
+    for (const auto& m : q->variants) {
       if (!std::isfinite(m.value)) continue;
       const auto above = [](double x) { return 100 * (x - 1); };
       auto& bar = chart.bars.emplace_back(BarChart::Bar{
-          .label = std::string(name) + ", " + m.ring,
+          .label = std::string(name) + ", " + m.variant,
           .value = above(m.likely()),
-          .colour = static_cast<std::size_t>(std::find(names.begin(), names.end(), m.ring) - names.begin()),
+          .colour = static_cast<std::size_t>(std::find(names.begin(), names.end(), m.variant) - names.begin()),
           .note = fmt::format("{:.3g} %", above(m.likely())),
           .error = 100 * m.error});
       if (!m.spread) continue;

@@ -97,11 +97,11 @@ template <class Subject>
 }
 
 // answers.cc
-/// What the stiffness of the ring mesh, load sharing and dynamic factors of several rings say, and the last two in one
-/// picture: by how much the most loaded planet and the largest dynamic load exceed the ideal. `names`: of the rings, in
-/// the order of their colours.
-[[nodiscard]] Blocks answer_sentences(const std::vector<RingQuantity>& quantities);
-[[nodiscard]] Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::vector<std::string>& names);
+/// What stiffnesses, load sharing and dynamic factors of several variants say, and the last two in one picture: by how
+/// much the most loaded planet and the largest dynamic load exceed the ideal. `names`: of the variants, in the order of
+/// their colours.
+[[nodiscard]] Blocks answer_sentences(const std::vector<VariantQuantity>& quantities);
+[[nodiscard]] Blocks answer_picture(const std::vector<VariantQuantity>& quantities, const std::vector<std::string>& names);
 
 // run_page.cc
 /// What the page of a kind shows besides the sections that all kinds have.

@@ -70,8 +70,8 @@ Section inputs_section(const SystemRun& run) {
                                assumed_tag, assumed.rows.size())) +
               assumed;
   PageTable all{.head = {"key", "value", "origin", "meaning"}};
-  const auto key_text = [](const std::string& key, const std::string& ring) {
-    return code(key) + (ring.empty() ? Text() : " " + muted(ring));
+  const auto key_text = [](const std::string& key, const std::string& variant) {
+    return code(key) + (variant.empty() ? Text() : " " + muted(variant));
   };
   for (const auto& input : plan.inputs) {
     Text origin = to_text(input.origin);
@@ -80,12 +80,12 @@ Section inputs_section(const SystemRun& run) {
     all.rows.push_back(
         {key_text(input.key, input.variant), to_text(input.value) + " " + input.unit, origin, input.meaning});
   }
-  const auto add_derived = [&](const auto& quantities, const std::string& ring) {
+  const auto add_derived = [&](const auto& quantities, const std::string& variant) {
     for (const auto& q : quantities)
-      all.rows.push_back({key_text(q.key, ring), to_text(q.value, 8) + " " + q.unit, "derived", q.meaning});
+      all.rows.push_back({key_text(q.key, variant), to_text(q.value, 8) + " " + q.unit, "derived", q.meaning});
   };
   add_derived(plan.quantities, "");
-  for (const auto& [ring, quantities] : plan.variants) add_derived(quantities, ring);
+  for (const auto& [variant, quantities] : plan.variants) add_derived(quantities, variant);
   Blocks record = Lines{run.scene.text};
   if (!run.command.empty()) record = paragraph("Made by " + code(run.command) + ".") + record;
   return {"inputs", "Inputs",
@@ -145,7 +145,7 @@ Section pictures_section(const NamedMeshes& meshes) {
         mesh->model.fidelity.ends_with("solid")
             ? std::string("Orange: fixed faces. Blue: driven flanks.")
             : fmt::format("Blue: {}. Orange: fixed surface. Circle: pitch point.", mesh->model.pinion_body));
-    picture.ring = mesh->model.ring;
+    picture.variant = mesh->model.variant;
   }
   return {"meshes", "Meshes", pictures.list.empty() ? Blocks() : Blocks(pictures)};
 }
@@ -153,7 +153,7 @@ Section pictures_section(const NamedMeshes& meshes) {
 Section fields_section(const NamedMeshes& meshes) {
   Pictures figure{.layout = Pictures::Layout::fields};
   for (const auto& [title, mesh] : meshes)
-    for (const auto& view : mesh->fields) figure.list.emplace_back(view, title).ring = mesh->model.ring;
+    for (const auto& view : mesh->fields) figure.list.emplace_back(view, title).variant = mesh->model.variant;
   Section section{"fields", "Deformation and stress"};
   if (figure.list.empty()) return section;
   std::vector<DeformedMesh*> views;
@@ -256,7 +256,8 @@ Page run_page(const SystemRun& run, const RunPage& page) {
     constexpr const char* open[] = {"warnings", "figures", "spread", "tolerances"};
     section.folded = std::find(std::begin(open), std::end(open), section.anchor) == std::end(open);
   }
-  for (const auto& variant : run.variants()) made.rings.push_back(variant.name);
+  for (const auto& variant : run.variants()) made.variants.push_back(variant.name);
+  made.variant_word = run.plan.variant_word;
   made.meshes = page.choices;
   made.line_kind = page.line_kind;
   made.lines = page.lines;

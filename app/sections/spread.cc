@@ -46,7 +46,7 @@ std::string percent(const dynamics::Interval& share) {
 /// Nothing when there are no pairs.
 std::optional<Text> order_sentence(const StudyResults& studies, const PairedOrder& order) {
   if (order.samples == 0) return std::nullopt;
-  // Seen from the ring that is more often above.
+  // Seen from the variant that is more often above.
   const bool swap = 2 * order.above + order.equal < order.samples;
   const long above = swap ? order.samples - order.above - order.equal : order.above;
   const auto share = swap ? dynamics::share_interval(above, order.samples) : order.share;

@@ -8,6 +8,7 @@
 #include "app/study/directed_sweeps.h"
 #include "app/study/studies.h"
 #include "app/study/study_points.h"
+#include "app/study/summary_studies.h"
 #include "core/csv.h"
 #include "core/files.h"
 
@@ -86,16 +87,17 @@ std::vector<std::size_t> order_of(const std::vector<StudyPoint>& variants, const
   return order;
 }
 
-/// Input and ring are words, so the file is no table of numbers alone.
+/// Input and variant are words, so the file is no table of numbers alone.
 std::string sensitivity_csv(const StudySubject& subject, const SensitivityResult& result) {
+  const auto word = variant_word(subject.scene().stage.kind);
   std::string text =
-      fmt::format("# annulus_version: {}\n# factor: {:.17g}\ninput,ring,value", version(), result.factor);
+      fmt::format("# annulus_version: {}\n# factor: {:.17g}\ninput,{},value", version(), result.factor, word);
   const auto& figures = subject.figures();
   const auto& names = subject.variants();
   for (const auto* which : {"divided_", "nominal_", "multiplied_"}) {
     for (const auto& figure : figures) text += std::string(",") + which + figure.key;
   }
-  text += ",order_of_rings_stays\n";
+  text += "," + order_column(word) + "\n";
   for (const auto& row : result.rows) {
     for (std::size_t variant = 0; variant < names.size(); ++variant) {
       text += fmt::format("{},{},{:.17g}", row.input, csv_cell(names[variant]), row.values[variant]);

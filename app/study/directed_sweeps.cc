@@ -129,7 +129,7 @@ std::vector<SweepBranches> find_branches(const StudySubject& subject, std::size_
   });
   for (std::size_t variant = 0; variant < variants; ++variant)
     if (!result[variant].failure.empty())
-      log::warn(fmt::format("[[sweep]] {}, branches{}: {}", sweep + 1, ring_words(subject, variant),
+      log::warn(fmt::format("[[sweep]] {}, branches{}: {}", sweep + 1, variant_words(subject, variant),
                             result[variant].failure));
   return result;
 }

@@ -192,7 +192,7 @@ MonteCarloResult run_monte_carlo(const StudySubject& subject, const Sampling& se
     variant.samples.write(subject.folder(i) / "monte_carlo.csv");
     if (variant.failed)
       log::warn(fmt::format("Monte Carlo{}: {} of {} samples failed; monte_carlo.csv states why",
-                            names[i].empty() ? "" : ", ring '" + names[i] + "'", variant.failed, settings.samples));
+                            variant_words(subject, i), variant.failed, settings.samples));
     result.variants.push_back(std::move(variant));
   }
   for (const auto& figure : figures) {
@@ -203,7 +203,9 @@ MonteCarloResult run_monte_carlo(const StudySubject& subject, const Sampling& se
     }
   }
   progress.finish(fmt::format("{} samples{}{}", settings.samples,
-                              names.size() > 1 ? fmt::format(" × {} rings", names.size()) : "",
+                              names.size() > 1
+                                  ? fmt::format(" × {} {}s", names.size(), variant_word(subject.scene().stage.kind))
+                                  : "",
                               failures ? fmt::format(", {} failed", failures) : ""));
   return result;
 }

@@ -135,10 +135,10 @@ class DesignObjective {
   }
 
   static std::size_t variant_of(const StudySubject& subject) {
-    const auto& ring = subject.scene().optimise->ring;
-    if (!ring) return 0;
+    const auto& variant = subject.scene().optimise->variant;
+    if (!variant) return 0;
     const auto& names = subject.variants();
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), *ring) - names.begin());
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), *variant) - names.begin());
   }
   const StudySubject& subject_;
   const Scene& scene_;

@@ -61,9 +61,9 @@ StudyPoint attempted(const std::function<StudyPoint()>& respond) {
   }
 }
 
-std::string ring_words(const StudySubject& subject, std::size_t variant) {
+std::string variant_words(const StudySubject& subject, std::size_t variant) {
   const auto& name = subject.variants().at(variant);
-  return name.empty() ? "" : ", ring '" + name + "'";
+  return name.empty() ? "" : fmt::format(", {} '{}'", variant_word(subject.scene().stage.kind), name);
 }
 
 std::size_t warn_of_failures(const StudySubject& subject, const std::vector<StudyCase>& cases,
@@ -74,7 +74,7 @@ std::size_t warn_of_failures(const StudySubject& subject, const std::vector<Stud
       const auto& point = points.variants[variant][i];
       if (point.failure.empty()) continue;
       ++failed;
-      log::warn(fmt::format("{}{}: {}", cases[i].where, ring_words(subject, variant), point.failure));
+      log::warn(fmt::format("{}{}: {}", cases[i].where, variant_words(subject, variant), point.failure));
     }
   return failed;
 }

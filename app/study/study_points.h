@@ -28,7 +28,7 @@ struct CasePoints {
 [[nodiscard]] CasePoints run_cases(const StudySubject& subject, const std::vector<StudyCase>& cases,
                                    const std::string& label);
 /// ", ring 'pinned'"; empty for kinds without variants.
-[[nodiscard]] std::string ring_words(const StudySubject& subject, std::size_t variant);
+[[nodiscard]] std::string variant_words(const StudySubject& subject, std::size_t variant);
 /// Logs the points that failed, and returns their number.
 std::size_t warn_of_failures(const StudySubject& subject, const std::vector<StudyCase>& cases,
                              const CasePoints& points);

@@ -9,6 +9,8 @@
 
 namespace annulus::app {
 
+std::string order_column(const std::string& variant_word) { return fmt::format("order_of_{}s_stays", variant_word); }
+
 Json interval_json(const dynamics::Interval& i) {
   return {{"value", json_number(i.value)}, {"low", json_number(i.low)}, {"high", json_number(i.high)}};
 }
@@ -171,7 +173,7 @@ Json optimise_json(const StudyResults& studies) {
                {"least_meaning", json_number(o.range.least_meaning)},
                {"given", design_json(studies, o, o.given)},
                {"best", design_json(studies, o, o.best)}};
-  if (!studies.variants[o.variant].empty()) json["ring"] = studies.variants[o.variant];
+  if (!studies.variants[o.variant].empty()) json[studies.variant_word] = studies.variants[o.variant];
   for (std::size_t i = 0; i < o.runs.size(); ++i) {
     const auto& run = o.runs[i];
     json["searches"].push_back(
@@ -194,7 +196,7 @@ Json studies_json(const StudyResults& studies) {
     auto& orders = json["monte_carlo"]["orders"] = Json::array();
     for (const auto& o : studies.monte_carlo->orders)
       orders.push_back({{"figure", o.figure},
-                        {"ring", studies.variants[o.a]},
+                        {studies.variant_word, studies.variants[o.a]},
                         {"above", studies.variants[o.b]},
                         {"share", interval_json(o.share)},
                         {"mean_difference", interval_json(o.difference)},
@@ -205,7 +207,7 @@ Json studies_json(const StudyResults& studies) {
   const auto& sensitivity = *studies.sensitivity;
   auto& rows = json["sensitivity"] = {{"factor", sensitivity.factor}, {"inputs", Json::array()}};
   for (const auto& row : sensitivity.rows) {
-    Json item = {{"input", row.input}, {"unit", row.unit}, {"order_of_rings_stays", row.order_stays}};
+    Json item = {{"input", row.input}, {"unit", row.unit}, {order_column(studies.variant_word), row.order_stays}};
     for (std::size_t i = 0; i < studies.variants.size(); ++i) {
       Json values = {{"value", json_number(row.values[i])},
                      {"divided", point_json(studies, row.divided[i])},
@@ -214,7 +216,7 @@ Json studies_json(const StudyResults& studies) {
       if (studies.variants[i].empty())
         item.update(values);
       else
-        item["rings"][studies.variants[i]] = std::move(values);
+        item[studies.variant_word + "s"][studies.variants[i]] = std::move(values);
     }
     rows["inputs"].push_back(std::move(item));
   }

@@ -133,7 +133,7 @@ TransientResult run_transient(const StudySubject& subject, std::size_t number) {
   const auto& input = result.input;
   for (std::size_t variant = 0; variant < result.variants.size(); ++variant) {
     const auto& course = result.variants[variant];
-    const auto name = fmt::format("[[transient]] '{}'{}", input.name, ring_words(subject, variant));
+    const auto name = fmt::format("[[transient]] '{}'{}", input.name, variant_words(subject, variant));
     if (!course.failure.empty()) {
       log::warn(fmt::format("{}: {}", name, course.failure));
       continue;

@@ -61,7 +61,7 @@ std::vector<MeshModel> meshes_of(const GearSystem& system, std::size_t variant) 
 }
 
 /// Folder of the measurements of a mesh.
-std::string folder_of(const MeshModel& mesh) { return mesh.ring.empty() ? mesh.mesh : mesh.ring; }
+std::string folder_of(const MeshModel& mesh) { return mesh.variant.empty() ? mesh.mesh : mesh.variant; }
 
 bool all_computed(const std::vector<MeshModel>& meshes) {
   return std::all_of(meshes.begin(), meshes.end(), [](const MeshModel& mesh) { return mesh.computed(); });
@@ -191,7 +191,7 @@ class Measurement {
   std::optional<MeshResult> table(const MeshModel& model, const std::filesystem::path& folder,
                                   TradePoint& point) const {
     const auto [done, reused] =
-        cached_value(options_.store.get(), measured_meshes, identity_of(model.id(), model.mesh, model.ring), [&] {
+        cached_value(options_.store.get(), measured_meshes, identity_of(model.id(), model.mesh, model.variant), [&] {
           auto afresh = options_;
           afresh.store = nullptr;
           return measured([&] { return to_bytes(solved_stiffness(model, folder, afresh)); });

@@ -39,7 +39,7 @@ app::RunResult run_of(double stiff, double soft, double error) {
 app::Reference published(double margin = 0) {
   app::Reference reference;
   reference.orders.push_back({.quantity = "ring_stiffness",
-                              .rings = {"stiff", "soft"},
+                              .variants = {"stiff", "soft"},
                               .values = {},
                               .margin = margin,
                               .statement = "stiff is stiffer",
@@ -66,9 +66,9 @@ BOOST_AUTO_TEST_CASE(outcomes_follow_the_numbers) {
   BOOST_CHECK(outcome(1.01e9, 1e9, 0.001, 0.05) == Outcome::disagrees);  // larger, but not clearly
 }
 
-BOOST_AUTO_TEST_CASE(missing_rings_are_not_judged) {
+BOOST_AUTO_TEST_CASE(missing_variants_are_not_judged) {
   auto reference = published();
-  reference.orders[0].rings = {"stiff", "pinned"};
+  reference.orders[0].variants = {"stiff", "pinned"};
   reference.at_pins.push_back({"pinned", "stiffer at a pin", ""});
   for (const auto& v : app::compare(reference, run_of(3e9, 1e9, 0.01))) {
     BOOST_CHECK(v.outcome == app::Verdict::Outcome::undecided);

@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_fidelity_elements_and_motion) {
   const auto coupled = [](const app::Plan& plan) {
     const auto& steps = plan.cost.steps;
     return std::any_of(steps.begin(), steps.end(), [&](const auto& s) {
-      return s.kind == app::CostKind::coupling && s.ring == plan.meshes[3].ring;
+      return s.kind == app::CostKind::coupling && s.variant == plan.meshes[3].variant;
     });
   };
   // Formulas where their error is within the accuracy; the thin-walled ring needs a solid. How planets act on each
@@ -213,7 +213,7 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_fidelity_elements_and_motion) {
   for (const auto& mesh : usual.meshes) {
     BOOST_TEST(mesh.fidelity != "closed_form");
     // Linear ones meet 1 % where no edges of supports nor solids are in the way.
-    const bool linear = mesh.ring.empty() || mesh.ring == rough.meshes[1].ring;
+    const bool linear = mesh.variant.empty() || mesh.variant == rough.meshes[1].variant;
     BOOST_TEST(decided(app::decisions(mesh), "elements") == (linear ? "linear" : "quadratic"));
     BOOST_TEST(decided(app::decisions(mesh), "refinement") == "until 1 %");
     BOOST_TEST(decided(app::decisions(mesh), "positions per mesh cycle") == "128");
@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(structures_their_fidelity_and_why) {
   const auto plan = app::make_plan(scene);
   const auto mesh = [&](const std::string& ring) {
     for (const auto& m : plan.meshes) {
-      if (m.ring == ring) return m;
+      if (m.variant == ring) return m;
     }
     throw std::logic_error(ring);
   };

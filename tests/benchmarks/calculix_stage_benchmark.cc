@@ -150,7 +150,7 @@ Place place_at(const PlanetarySet& set, double cycles) {
     if (n == 0) place.sun_angle = direction - half(sun, sun_angle) + sun.pitch_angle() * cycles;
     const double angle = direction + std::numbers::pi - half(planet, sun_angle) - planet.pitch_angle() * turned;
     place.planet_direction.push_back(direction);
-    place.pinion_angle.push_back(angle);
+    place.planet_angle.push_back(angle);
     const Eigen::Vector2d axis = Eigen::Rotation2Dd(direction) * Eigen::Vector2d(set.centre_distance(), 0);
     for (const bool with_ring : {false, true}) {
       const auto& mesh = with_ring ? ring_mesh : sun_mesh;
@@ -168,7 +168,7 @@ Place place_at(const PlanetarySet& set, double cycles) {
         pair.wheel_tooth =
             with_ring
                 ? tooth(ring_position - passed, ring.teeth())
-                : tooth(passed - cycles + sun.teeth() * set.pinion_angle(n) / (2 * std::numbers::pi), sun.teeth());
+                : tooth(passed - cycles + sun.teeth() * set.planet_angle(n) / (2 * std::numbers::pi), sun.teeth());
         Eigen::Vector2d point =
             planet_profile.flank_point(std::clamp(roll, mesh.roll_length_low(), mesh.roll_length_high()));
         if (with_ring) point.y() = -point.y();
@@ -215,7 +215,7 @@ StageJob stage_job(const app::Scene& scene, const app::RingGeometry& ring, doubl
   for (int n = 0; n < set.planets(); ++n) {
     HubGear planet{gear_body(set.planet(), planet_bore, options.same_mesh, planet_teeth[n]),
                    Eigen::Rotation2Dd(place.planet_direction[n]) * Eigen::Vector2d(set.centre_distance(), 0)};
-    planet.body.place(place.pinion_angle[n], planet.axis);
+    planet.body.place(place.planet_angle[n], planet.axis);
     job.planets.push_back(std::move(planet));
   }
   job.ring = gear_body(set.ring(), ring.outside_radius, options.same_mesh, ring_teeth);

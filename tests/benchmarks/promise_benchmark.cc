@@ -103,7 +103,7 @@ double run_time(const app::Scene& scene, const std::filesystem::path& folder, co
   app::RunOptions options{.out = folder, .threads = 1};
   if (setting)
     options.remodel = [&](const app::MeshModel& planned) {
-      const bool solid = planned.ring.empty() ? !solid_reason(scene).empty()
+      const bool solid = planned.variant.empty() ? !solid_reason(scene).empty()
                                               : !solid_reason(scene, planetary(scene).rings.front()).empty();
       return setting->applied(planned, solid ? app::AlongFace::varying : app::AlongFace::uniform);
     };

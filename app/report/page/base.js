@@ -1,4 +1,4 @@
-// What every report page does: it unpacks pictures and numbers, opens folds, and shows one ring or mesh at a time.
+// What every report page does: it unpacks pictures and numbers, opens folds, and shows one variant or mesh at a time.
 const annulus = (() => {
   'use strict';
   const unpacked = (script) => pako.inflate(Uint8Array.from(atob(script.textContent.trim()), (c) => c.charCodeAt(0)), {to: 'string'});
@@ -46,10 +46,10 @@ const annulus = (() => {
     target.scrollIntoView();
   }
 
-  /// Pictures of other rings or meshes than the chosen ones are hidden.
+  /// Pictures of other variants or meshes than the chosen ones are hidden.
   function choose() {
     const chosen = [...document.querySelectorAll('select[data-choose]')].map((s) => [s.dataset.choose, s.value]);
-    for (const picture of document.querySelectorAll('[data-ring], [data-mesh]'))
+    for (const picture of document.querySelectorAll('[data-variant], [data-mesh]'))
       picture.hidden = chosen.some(([what, value]) => value && picture.dataset[what] && picture.dataset[what] !== value);
     showLines(document);
     window.dispatchEvent(new Event('annulus:lines'));

@@ -66,7 +66,7 @@ struct OptimiseInput {
   std::vector<std::string> objective;  ///< columns of figures
   std::vector<double> weights;         ///< one per figure; empty: their mean
   Goal goal = Goal::smallest;
-  std::optional<std::string> ring;      ///< absent: the first one
+  std::optional<std::string> variant;   ///< absent: the first one
   std::vector<std::string> optimisers;  ///< names of dynamics::Optimiser
   int generations = 0, population = 0, repeats = 0, seed = 0;
   double elite = 0, crossover = 0, mutation = 0;

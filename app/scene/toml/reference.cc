@@ -32,12 +32,12 @@ std::vector<Table> reference_tables() {
   top.key("note", &Reference::note, "Remarks that help to judge the comparison.");
 
   using Order = Reference::Order;
-  auto order = entries("order", "Rings in the order of one result.", &Reference::orders);
+  auto order = entries("order", "Variants in the order of one result.", &Reference::orders);
   order.key("quantity", &Order::quantity, "The result.").required();
-  order.key("rings", &Order::rings, "Ring with the largest value first; a single ring is larger than all others.")
-      .not_empty("ring")
+  order.key("variants", &Order::variants, "That with the largest value first; a single one is larger than all others.")
+      .not_empty("variant")
       .required();
-  order.key("values", &Order::values, "Published numbers, one per ring or none.").from(-widest, widest);
+  order.key("values", &Order::values, "Published numbers, one per variant or none.").from(-widest, widest);
   order.key("margin", &Order::margin, "Published relative difference.").from(0, widest);
 
   using AtPin = Reference::AtPin;
@@ -60,9 +60,9 @@ Reference read_reference(const std::filesystem::path& file) {
   auto reference = holder.own<Reference>();
   for (std::size_t i = 0; i < reference.orders.size(); ++i) {
     const auto& order = reference.orders[i];
-    if (order.values.empty() || order.values.size() == order.rings.size()) continue;
+    if (order.values.empty() || order.values.size() == order.variants.size()) continue;
     const Input& values = *holder.find("order.values", i);
-    throw SceneError(file.string(), {{values.line, values.column, "order.values: needs one value per ring, or none"}});
+    throw SceneError(file.string(), {{values.line, values.column, "order.values: needs one value per variant, or none"}});
   }
   return reference;
 }

@@ -127,7 +127,7 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene) {
   constexpr double of_study = 1e-3;  // its model, and loss of contact at some points
   const double study_s = of_study + course.balance_s + (asked ? *asked * per_cycle : 0);
   return {{.label = "dynamics of the pair",
-           .ring = "",
+           .variant = "",
            .size = {.work = Work::response_pair,
                     .unknowns = (1 + shares) * std::min(period, asked.value_or(period)),
                     .motion_s = balances + cycles * per_cycle + draws * seconds_of_draw,

@@ -17,18 +17,18 @@ namespace annulus::app {
 
 namespace {
 
-const Measured* find(const RingQuantity& quantity, const std::string& ring) {
+const Measured* find(const VariantQuantity& quantity, const std::string& ring) {
   const auto found =
-      std::find_if(quantity.rings.begin(), quantity.rings.end(), [&](const Measured& m) { return m.ring == ring; });
-  return found == quantity.rings.end() ? nullptr : &*found;
+      std::find_if(quantity.variants.begin(), quantity.variants.end(), [&](const Measured& m) { return m.variant == ring; });
+  return found == quantity.variants.end() ? nullptr : &*found;
 }
 
-std::string numbers_text(const RingQuantity& quantity) {
-  auto sorted = quantity.rings;
+std::string numbers_text(const VariantQuantity& quantity) {
+  auto sorted = quantity.variants;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Measured& a, const Measured& b) { return a.value > b.value; });
   std::string text;
-  for (const auto& m : sorted) text += (text.empty() ? "" : " > ") + m.ring + " " + to_text(m.value, quantity.digits);
+  for (const auto& m : sorted) text += (text.empty() ? "" : " > ") + m.variant + " " + to_text(m.value, quantity.digits);
   return text;
 }
 
@@ -66,7 +66,7 @@ std::string sharing_reason(const RunResult& result) {
       parts, 100 * (range.high / range.low - 1));
 }
 
-Verdict judge(const Reference::Order& order, const RingQuantity& quantity, const RunResult& result) {
+Verdict judge(const Reference::Order& order, const VariantQuantity& quantity, const RunResult& result) {
   Verdict verdict{.statement = order.statement,
                   .where = order.where,
                   .quantity = quantity.name,
@@ -74,22 +74,22 @@ Verdict judge(const Reference::Order& order, const RingQuantity& quantity, const
                   .published = {},
                   .outcome = Verdict::Outcome::agrees,
                   .why = {}};
-  for (std::size_t i = 0; i < order.rings.size(); ++i) {
+  for (std::size_t i = 0; i < order.variants.size(); ++i) {
     verdict.published +=
-        (i ? " > " : "") + order.rings[i] + (order.values.empty() ? "" : " " + to_text(order.values[i], 5));
-    if (find(quantity, order.rings[i])) continue;
+        (i ? " > " : "") + order.variants[i] + (order.values.empty() ? "" : " " + to_text(order.values[i], 5));
+    if (find(quantity, order.variants[i])) continue;
     verdict.outcome = Verdict::Outcome::undecided;
-    verdict.why = "ring '" + order.rings[i] + "' is not part of this run";
+    verdict.why = "ring '" + order.variants[i] + "' is not part of this run";
     return verdict;
   }
-  if (order.rings.size() == 1) {
-    const auto* first = find(quantity, order.rings.front());
-    for (const auto& other : quantity.rings) {
-      if (other.ring != first->ring) worsen(verdict, *first, other, order.margin, quantity.digits);
+  if (order.variants.size() == 1) {
+    const auto* first = find(quantity, order.variants.front());
+    for (const auto& other : quantity.variants) {
+      if (other.variant != first->variant) worsen(verdict, *first, other, order.margin, quantity.digits);
     }
   }
-  for (std::size_t i = 0; i + 1 < order.rings.size(); ++i) {
-    worsen(verdict, *find(quantity, order.rings[i]), *find(quantity, order.rings[i + 1]), order.margin,
+  for (std::size_t i = 0; i + 1 < order.variants.size(); ++i) {
+    worsen(verdict, *find(quantity, order.variants[i]), *find(quantity, order.variants[i + 1]), order.margin,
            quantity.digits);
   }
   if (verdict.outcome != Verdict::Outcome::agrees && order.quantity == "load_sharing")
@@ -177,7 +177,7 @@ std::vector<Verdict> judge_pin(const Reference::AtPin& statement, const RunResul
 
 }  // namespace
 
-std::vector<RingQuantity> ring_quantities(const RunResult& result) {
+std::vector<VariantQuantity> ring_quantities(const RunResult& result) {
   // The definitions that are compared with published statements, the usual one first.
   constexpr const char* keys[] = {"ring_planet_mean_stiffness_N_per_m",
                                   "ring_planet_stiffness_ripple",
@@ -191,16 +191,16 @@ std::vector<RingQuantity> ring_quantities(const RunResult& result) {
                                   "ring_planet_peak_factor"};
   const auto& specs = system_kind(result.scene.stage.kind).figures();
   const auto variants = result.variants();
-  std::vector<RingQuantity> list;
+  std::vector<VariantQuantity> list;
   for (const auto* key : keys) {
     const auto* spec = find_figure(specs, key);
-    RingQuantity quantity{spec->quantity, spec->title, {}, spec->digits};
+    VariantQuantity quantity{spec->quantity, spec->title, {}, spec->digits};
     for (const auto& variant : variants) {
       const auto* entry = variant.figures.find(key);
       if (entry && std::isfinite(entry->figure.value))
-        quantity.rings.push_back({variant.name, entry->figure.value, entry->figure.error, entry->spread});
+        quantity.variants.push_back({variant.name, entry->figure.value, entry->figure.error, entry->spread});
     }
-    if (!quantity.rings.empty()) list.push_back(std::move(quantity));
+    if (!quantity.variants.empty()) list.push_back(std::move(quantity));
   }
   return list;
 }

@@ -11,7 +11,7 @@
 namespace annulus::app {
 
 /// Everything that can be compared between rings. One key may stand for several definitions of the same figure.
-[[nodiscard]] std::vector<RingQuantity> ring_quantities(const RunResult& result);
+[[nodiscard]] std::vector<VariantQuantity> ring_quantities(const RunResult& result);
 
 /// A published statement compared with the computed numbers.
 struct Verdict {

@@ -68,7 +68,7 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
   const auto& made = geometry.rings.at(ring);
   return mesh_model(scene, {.mesh = ring_planet,
                             .title = "ring-planet mesh",
-                            .ring = input.name,
+                            .variant = input.name,
                             .pair = made.set.ring_mesh(),
                             .input = planetary(scene).ring_planet,
                             .pinion = sun_and_planets(scene).planet,

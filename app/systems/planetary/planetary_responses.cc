@@ -73,7 +73,7 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
   // A window is stored and evaluated, however many cycles lead to it.
   return {
       .label = fmt::format("dynamics of '{}'", name),
-      .ring = name,
+      .variant = name,
       .size = {.work = work_of_response(scene, tables > 0, ring),
                .unknowns = static_cast<double>(scene.stage.planets) * std::min(period, asked.value_or(period)),
                .motion_s = balances + (cycles + searched_cycles) * per_cycle + surface_s + tolerance_seconds(scene)},

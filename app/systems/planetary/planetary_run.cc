@@ -92,14 +92,14 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
         scene, pair.contact_ratio(), geometry.operating_point.mean_mesh_force);
   }
   MeshResult result;
-  about(scene, sun ? "sun" : "ring '" + model.ring + "'",
-        [&] { result = computed_stiffness(model, model.ring, options); });
+  about(scene, sun ? "sun" : "ring '" + model.variant + "'",
+        [&] { result = computed_stiffness(model, model.variant, options); });
   if (options.with_dynamics && scene.dynamics && moves_in_space(scene))
     result.face = face_in_motion(result, geometry.operating_point.mean_mesh_force, options);
   if (options.with_dynamics && may_be_coupled(scene, model)) {
     result.coupling = std::make_shared<SolvedCoupling>(
-        solve_coupling(scene, geometry, model, 1 / result.mean_stiffness().value, options, options.out / model.ring));
-    note_reuse(options, fmt::format("coupling of ring '{}'", model.ring), source_of(result.coupling->reused));
+        solve_coupling(scene, geometry, model, 1 / result.mean_stiffness().value, options, options.out / model.variant));
+    note_reuse(options, fmt::format("coupling of ring '{}'", model.variant), source_of(result.coupling->reused));
   }
   return result;
 }

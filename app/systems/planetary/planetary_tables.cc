@@ -352,7 +352,7 @@ Table rim_coupling_key() {
 
 Table optimised_ring_key() {
   Declarations optimise("optimise", "", &Scene::optimise);
-  optimise.key("ring", &OptimiseInput::ring, "The ring whose results are optimised.").absent("the first");
+  optimise.key("ring", &OptimiseInput::variant, "The ring whose results are optimised.").absent("the first");
   return optimise.done();
 }
 

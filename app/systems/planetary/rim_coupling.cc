@@ -67,7 +67,7 @@ RimCoupling asked_coupling(const Scene& scene) {
 
 const RingInput& ring_of(const Scene& scene, const MeshModel& model) {
   return *std::find_if(planetary(scene).rings.begin(), planetary(scene).rings.end(),
-                       [&](const auto& r) { return r.name == model.ring; });
+                       [&](const auto& r) { return r.name == model.variant; });
 }
 
 /// A ring on a single pin leans on its housing, now here, now there: no fixed supports hold it.

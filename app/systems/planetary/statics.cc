@@ -351,7 +351,7 @@ StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, con
     auto& mesh = tables.emplace_back(mesh_stiffness(scene, geometry, model, options));
     if (may_be_coupled_at_rest(scene, model))
       mesh.coupling = std::make_shared<SolvedCoupling>(
-          solve_coupling(scene, geometry, model, 1 / mesh.mean_stiffness().value, options, options.out / model.ring));
+          solve_coupling(scene, geometry, model, 1 / mesh.mean_stiffness().value, options, options.out / model.variant));
     faces.push_back(solid_face(mesh, options));
   }
   StageStatics statics{scene, {}};

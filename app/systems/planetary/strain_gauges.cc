@@ -221,7 +221,7 @@ std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::
   std::size_t number = 0;
   for (std::size_t g = 0; g < planetary(scene).strain_gauges.size(); ++g) {
     const auto& input = planetary(scene).strain_gauges[g];
-    if (input.ring && *input.ring != ring_mesh.model.ring) continue;
+    if (input.ring && *input.ring != ring_mesh.model.variant) continue;
     for (const double position : positions_of(input)) {
       const auto& curve = curves.at(number++);
       GaugeReading reading{name_at(input, position), g, {}};

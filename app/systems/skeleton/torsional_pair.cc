@@ -164,7 +164,7 @@ class TorsionalPair final : public GearSystem {
   [[nodiscard]] double mean_mesh_force() const override { return input().torque / gears().pinion().base_radius(); }
 
   [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
-    if (mesh.computed()) return computed_stiffness(mesh, mesh.ring, options);
+    if (mesh.computed()) return computed_stiffness(mesh, mesh.variant, options);
     return prescribed_stiffness(mesh, input().mesh, scene(), gears().contact_ratio(), mean_mesh_force());
   }
 

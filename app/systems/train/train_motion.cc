@@ -221,7 +221,7 @@ std::vector<PlannedResponse> train_responses(const Scene& scene, const std::vect
   const double numbers = static_cast<double>(course.samples) * period *
                          static_cast<double>(2 * system.dofs() + static_cast<int>(system.meshes().size()));
   return {{.label = "dynamics of the train",
-           .ring = "",
+           .variant = "",
            .size = {.work = tables > 0 ? Work::response : Work::response_prescribed,
                     .motion_s = balances + cycles * per_cycle,
                     .held_MB = copies * sizeof(double) * numbers / bytes_per_MB},

@@ -61,7 +61,7 @@ class TrainSystem final : public GearSystem {
         if (of_train(part, own).title != mesh.title) continue;
         auto original = mesh;
         original.title = own.title;
-        original.ring = own.ring;
+        original.variant = own.variant;
         auto inside = options;
         inside.out /= part.name;
         auto result = part.system->stiffness(original, inside);
@@ -169,7 +169,7 @@ class TrainSystem final : public GearSystem {
 
   static MeshModel of_train(const WorkingPart& part, MeshModel mesh) {
     mesh.title = part.name + ": " + mesh.label();
-    mesh.ring.clear();
+    mesh.variant.clear();
     return mesh;
   }
 

@@ -148,7 +148,7 @@ std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
     constexpr double other = 0.2;         // vibration over a turn of the crank
     constexpr double of_sample = 1.2e-3;  // stiffness, lost motion and modes at one crank angle
     return PlannedResponse{.label = label,
-                           .ring = variant,
+                           .variant = variant,
                            .size = {.work = compared > 0 ? Work::response_two_k_v : Work::response_two_k_v_prescribed,
                                     .unknowns = static_cast<double>(period),
                                     .motion_s = other + once * (1 + compared)},

@@ -112,7 +112,7 @@ Blocks spectra(const RunResult& result) {
     for (auto& plot : plots) {
       plot.y_range = Range{0, 1.08 * highest};
       auto& picture = pictures.list.emplace_back(plot);
-      picture.ring = plot.title;
+      picture.variant = plot.title;
       picture.mesh = words;
     }
   }
@@ -140,7 +140,7 @@ Pictures planet_lines(const RunResult& result, const PlanetLines& shown, const T
                               {.x = "mesh_cycle", .y_scale = shown.scale, .rows_to = shown.cycles}, lines));
   }
   auto list = on_one_scale(plots);
-  for (std::size_t i = 0; i < list.size(); ++i) list[i].ring = plots[i].title;
+  for (std::size_t i = 0; i < list.size(); ++i) list[i].variant = plots[i].title;
   return {std::move(list), planet_legend(planets), caption};
 }
 

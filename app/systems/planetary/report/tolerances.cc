@@ -33,7 +33,7 @@ Picture over_torque(const RingResult& ring, const std::optional<TabulatedSharing
     if (tabulated->high > tabulated->low) plot.levels.emplace_back(tabulated->high, "");
   }
   Picture picture(plot);
-  picture.ring = ring.name;
+  picture.variant = ring.name;
   return picture;
 }
 
