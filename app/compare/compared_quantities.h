@@ -12,8 +12,8 @@ namespace annulus::app {
 /// A result over all variants of all runs.
 struct ComparedQuantity {
   FigureSpec spec;                         ///< in a unit that suits all variants
-  VariantQuantity si{};                       ///< the variants that have it
-  VariantQuantity shown{};                    ///< the same in that unit, which its name states
+  VariantQuantity si{};                    ///< the variants that have it
+  VariantQuantity shown{};                 ///< the same in that unit, which its name states
   std::vector<std::string> cells{};        ///< of all variants, with errors; "–" where one does not have it
   std::vector<std::string> spreads{};      ///< of all variants; "–" where one has no samples
   bool has_spread = false;                 ///< of any variant

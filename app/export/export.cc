@@ -133,7 +133,8 @@ const std::vector<ExportFormat>& export_formats() {
 }
 
 std::vector<std::filesystem::path> export_file(const std::filesystem::path& source, const std::string& format,
-                                               const std::filesystem::path& out, const std::string& variant, int threads) {
+                                               const std::filesystem::path& out, const std::string& variant,
+                                               int threads) {
   const auto& formats = export_formats();
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == format; });
   if (found == formats.end()) {

@@ -26,8 +26,8 @@ struct ExportFormat {
 };
 [[nodiscard]] const std::vector<ExportFormat>& export_formats();
 
-/// Writes `source` in `format`; `out` empty: beside the source, with the format's ending; `variant` chooses one of a scene
-/// with several. Returns what was written.
+/// Writes `source` in `format`; `out` empty: beside the source, with the format's ending; `variant` chooses one of a
+/// scene with several. Returns what was written.
 ///
 ///     stiffness_<mesh>.csv       all formats but rexs, mtx and png
 ///     ring_compliance.csv        csv, hdf5, matlab: the compliance and the stiffness matrix of the ring
@@ -38,8 +38,8 @@ struct ExportFormat {
 /// Throws InputError when the source is none of these or cannot be had in that format.
 [[nodiscard]] std::vector<std::filesystem::path> export_file(const std::filesystem::path& source,
                                                              const std::string& format,
-                                                             const std::filesystem::path& out, const std::string& variant,
-                                                             int threads);
+                                                             const std::filesystem::path& out,
+                                                             const std::string& variant, int threads);
 
 /// A picture in pixels. Throws InputError naming the file.
 void write_png(const std::filesystem::path& svg, const std::filesystem::path& png);

@@ -11,8 +11,8 @@
 namespace annulus::app {
 
 /// The variant of that name (empty where there is a single one). What REXS has no attribute for stands in custom
-/// attributes `custom_annulus_<key>`, with the key, unit and value of the scene. Throws InputError for a variant that is
-/// not there and for kinds that REXS cannot describe.
+/// attributes `custom_annulus_<key>`, with the key, unit and value of the scene. Throws InputError for a variant that
+/// is not there and for kinds that REXS cannot describe.
 [[nodiscard]] std::string rexs_text(const Scene& scene, const std::string& variant);
 
 /// What a file of REXS 1.x says about the first stage that one of the kinds recognises, in the order of the kinds.

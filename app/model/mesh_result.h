@@ -56,7 +56,7 @@ struct MeshResult {
   Csv gauges{};                        ///< gauges_<mesh>.csv: strain gauges on the wheel, by this mesh alone
   std::string picture{};               ///< SVG of the meshes in contact; empty when none was meshed
   std::vector<DeformedMesh> fields{};  ///< deformation and stress of both bodies in mesh; in no file, may be empty
-  FileSet bodies{};                    ///< OUT/<variant>/mesh: .msh and .vtu of both bodies; empty once they are written
+  FileSet bodies{};  ///< OUT/<variant>/mesh: .msh and .vtu of both bodies; empty once they are written
   /// Invariants and sizes by name: force_balance_relative, max_penetration_m, unknowns, mesh_seconds ...
   std::map<std::string, double> facts{};
   /// Ring meshes: how those of all planets act on each other through the ring; null when that was not looked at.
@@ -107,8 +107,8 @@ void leave_out_course_of_solve(MeshResult& result);
 [[nodiscard]] MeshResult prescribed_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene,
                                               double contact_ratio, double nominal_load);
 
-/// Writes lte_, stiffness_, pins_, ... <mesh>.csv, the picture and the bodies into `folder` (OUT/<variant>). What a result
-/// does not have leaves no file behind.
+/// Writes lte_, stiffness_, pins_, ... <mesh>.csv, the picture and the bodies into `folder` (OUT/<variant>). What a
+/// result does not have leaves no file behind.
 void save(const MeshResult& result, const std::filesystem::path& folder);
 
 }  // namespace annulus::app

@@ -47,8 +47,8 @@ struct MeshModel : fem::MeshChoice {
 
 /// A mesh of two gears of a scene.
 struct GearMesh {
-  std::string mesh;    ///< name of files and tables
-  std::string title;   ///< for people
+  std::string mesh;       ///< name of files and tables
+  std::string title;      ///< for people
   std::string variant{};  ///< that it belongs to; empty: to all of them
   const geometry::GearPair& pair;
   const MeshInput& input;

@@ -89,7 +89,8 @@ std::string study_lines(const Plan& plan) {
   std::string text = plan.studies.empty() ? "" : "\nStudies\n";
   for (const auto& s : plan.studies) {
     text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.description, s.responses,
-                        plan.variants.empty() ? "" : fmt::format(" of all {}s", plan.variant_word), duration_text(s.seconds));
+                        plan.variants.empty() ? "" : fmt::format(" of all {}s", plan.variant_word),
+                        duration_text(s.seconds));
     text += s.tables ? fmt::format("; {} own stiffness tables\n", s.tables) : ", on the tables of the scene\n";
   }
   return text;
@@ -174,7 +175,8 @@ std::string to_json(const Plan& plan) {
   json["title"] = plan.title;
   json["inputs"] = inputs_json(plan.inputs);
   json["stage"] = quantities_json(plan.quantities);
-  for (const auto& [name, quantities] : plan.variants) json[plan.variant_word + "s"][name] = quantities_json(quantities);
+  for (const auto& [name, quantities] : plan.variants)
+    json[plan.variant_word + "s"][name] = quantities_json(quantities);
   for (const auto& mesh : plan.meshes) {
     Json item = {{"mesh", mesh.mesh}, {"model", mesh.fidelity}, {"reason", mesh.reason}};
     if (!mesh.variant.empty()) item[plan.variant_word] = mesh.variant;

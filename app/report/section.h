@@ -127,7 +127,7 @@ struct Page {
   std::vector<std::string> variants{}, meshes{};  ///< to choose from; a single one needs no choice
   std::string variant_word{};                     ///< what these variants are, for the reader: "ring"
   std::string line_kind{};                        ///< what the lines are, for the reader: "Planet"
-  std::vector<std::string> lines{};            ///< their labels, all of them or one at a time
+  std::vector<std::string> lines{};               ///< their labels, all of them or one at a time
 };
 
 }  // namespace annulus::app

@@ -10,9 +10,9 @@ namespace annulus::app {
 struct Reference {
   /// "The first variant has the largest value, the last the smallest."
   struct Order {
-    std::string quantity;            ///< one of comparison.cc's quantities: "ring_stiffness", "load_sharing", ...
+    std::string quantity;               ///< one of comparison.cc's quantities: "ring_stiffness", "load_sharing", ...
     std::vector<std::string> variants;  ///< largest first; a single one: larger than all others
-    std::vector<double> values;      ///< published numbers, one per variant, or none
+    std::vector<double> values;         ///< published numbers, one per variant, or none
     double margin = 0;  ///< relative difference that the statement asks for ("clearly"); 0: any beyond the error bars
     std::string statement, where;
   };

@@ -35,6 +35,8 @@ using NamedMeshes = std::vector<std::pair<std::string, const MeshResult*>>;
 inline constexpr const char *spread_words = ", median (5 % to 95 %)", *nominal_words = ", nominal inputs";
 /// "1.2e-10"; "–" for what is not known.
 [[nodiscard]] std::string small_text(double x);
+/// What the errors of these results are made of.
+[[nodiscard]] Blocks error_parts(const std::vector<FigureSpec>& specs, const std::vector<VariantFigures>& variants);
 /// `text` with a unit behind a comma when there is one.
 [[nodiscard]] std::string with_unit(const std::string& text, const std::string& unit);
 /// A heading in the table of results, above those whose keys begin with `prefix` and that no group before has.
@@ -101,7 +103,8 @@ template <class Subject>
 /// much the most loaded planet and the largest dynamic load exceed the ideal. `names`: of the variants, in the order of
 /// their colours.
 [[nodiscard]] Blocks answer_sentences(const std::vector<VariantQuantity>& quantities);
-[[nodiscard]] Blocks answer_picture(const std::vector<VariantQuantity>& quantities, const std::vector<std::string>& names);
+[[nodiscard]] Blocks answer_picture(const std::vector<VariantQuantity>& quantities,
+                                    const std::vector<std::string>& names);
 
 // run_page.cc
 /// What the page of a kind shows besides the sections that all kinds have.

@@ -103,6 +103,8 @@ std::string part_text(double share) {
   return share == 0 ? "–" : share < 1e-4 ? "< 0.01 %" : fmt::format("{:.2g} %", 100 * share);
 }
 
+}  // namespace
+
 Blocks error_parts(const std::vector<FigureSpec>& specs, const std::vector<VariantFigures>& variants) {
   PageTable table{.head = {"", "value ± error", "discretisation", "local contact", "condensation",
                            "table interpolation", "time integration", "model choice"},
@@ -136,8 +138,6 @@ Blocks error_parts(const std::vector<FigureSpec>& specs, const std::vector<Varia
                      "integration: sampling, steady state and integrator. The error is the sum of its parts. "
                      "It is not known when one of its parts is not known. Prescribed stiffness is exact."));
 }
-
-}  // namespace
 
 std::string measured(double value, double error) {
   if (!std::isfinite(value)) return "not known";

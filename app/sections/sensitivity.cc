@@ -49,7 +49,7 @@ Section sensitivity_section(const StudyResults& studies) {
     what.emplace_back(with_unit(figure.title, figure.axis_label()));
     for (const auto& name : studies.variants) table.head.emplace_back(with_unit(figure.title, name));
   }
-  if (compare) table.head.emplace_back("order of the rings");
+  if (compare) table.head.emplace_back("order of the " + studies.variant_word + "s");
   std::size_t same_order = 0;
   for (const auto& row : s.rows) {
     std::vector<Text> cells = {code(row.input), nominal_values(row)};
@@ -62,12 +62,12 @@ Section sensitivity_section(const StudyResults& studies) {
     table.rows.push_back(std::move(cells));
   }
   section.blocks =
-      paragraph(phrase(
-          "One input at a time is divided by {0}, left unchanged, and multiplied by {0}. {1}.{2}", to_text(s.factor),
-          joined(what, "; "),
-          compare ? fmt::format(" The order of the rings by the first result stays the same for {} of {} inputs.",
-                                same_order, s.rows.size())
-                  : "")) +
+      paragraph(
+          phrase("One input at a time is divided by {0}, left unchanged, and multiplied by {0}. {1}.{2}",
+                 to_text(s.factor), joined(what, "; "),
+                 compare ? fmt::format(" The order of the {}s by the first result stays the same for {} of {} inputs.",
+                                       studies.variant_word, same_order, s.rows.size())
+                         : "")) +
       table;
   return section;
 }

@@ -112,9 +112,10 @@ Section spread_section(const StudyResults& studies) {
   Section section{"spread", "Spread", {}, "Spread over unknown inputs"};
   if (!studies.monte_carlo) return section;
   const auto& samples = *studies.monte_carlo;
-  section.blocks =
-      paragraph(phrase("{} samples (seed {}) of {}.{}{}", samples.samples, samples.seed, inputs_text(samples),
-                       studies.variants.size() > 1 ? " All rings have the same samples." : "", counted(studies)));
+  section.blocks = paragraph(
+      phrase("{} samples (seed {}) of {}.{}{}", samples.samples, samples.seed, inputs_text(samples),
+             studies.variants.size() > 1 ? fmt::format(" All {}s have the same samples.", studies.variant_word) : "",
+             counted(studies)));
   List sentences;
   const auto* ordering = studies.ordering();
   for (const auto& order : samples.orders) {

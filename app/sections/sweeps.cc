@@ -158,8 +158,8 @@ std::vector<std::string> line_names(const StudyResults& studies, const SweepResu
 
 /// Where the stability of the branches changes.
 Blocks branch_table(const StudyResults& studies, const SweepResult& sweep) {
-  PageTable table{
-      .head = {studies.variant_word, "branch", "event", with_unit(sweep.sweep.input, sweep.unit), with_unit("error", sweep.unit)}};
+  PageTable table{.head = {studies.variant_word, "branch", "event", with_unit(sweep.sweep.input, sweep.unit),
+                           with_unit("error", sweep.unit)}};
   Blocks blocks;
   for (std::size_t variant = 0; variant < sweep.branches.size(); ++variant) {
     const auto& found = sweep.branches[variant];

@@ -202,11 +202,10 @@ MonteCarloResult run_monte_carlo(const StudySubject& subject, const Sampling& se
         result.orders.push_back(paired_order(result.variants, a, b, figure.key));
     }
   }
-  progress.finish(fmt::format("{} samples{}{}", settings.samples,
-                              names.size() > 1
-                                  ? fmt::format(" × {} {}s", names.size(), variant_word(subject.scene().stage.kind))
-                                  : "",
-                              failures ? fmt::format(", {} failed", failures) : ""));
+  progress.finish(fmt::format(
+      "{} samples{}{}", settings.samples,
+      names.size() > 1 ? fmt::format(" × {} {}s", names.size(), variant_word(subject.scene().stage.kind)) : "",
+      failures ? fmt::format(", {} failed", failures) : ""));
   return result;
 }
 

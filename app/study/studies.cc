@@ -143,7 +143,9 @@ void check_studies(const Scene& scene) {
 
 StudyResults run_studies(const StudySubject& subject) {
   const auto& scene = subject.scene();
-  StudyResults results{.variants = subject.variants(), .variant_word = variant_word(subject.scene().stage.kind), .figures = subject.figures()};
+  StudyResults results{.variants = subject.variants(),
+                       .variant_word = variant_word(subject.scene().stage.kind),
+                       .figures = subject.figures()};
   for (std::size_t i = 0; i < results.variants.size(); ++i) results.nominal.push_back(subject.nominal(i));
   if (!scene.dynamics) return results;
   const auto& reuse = subject.options().reuse;

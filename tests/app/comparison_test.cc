@@ -17,10 +17,10 @@ namespace {
 
 /// A run of two rings with prescribed constant stiffnesses, without dynamics; `error` is that of every table entry.
 app::RunResult run_of(double stiff, double soft, double error) {
-  auto scene = app::parse_scene(test::quick_scene(), "s");
-  planetary(scene).rings.push_back(planetary(scene).rings.front());
-  planetary(scene).rings[0].name = "stiff";
-  planetary(scene).rings[1].name = "soft";
+  auto text = test::quick_scene();
+  const auto begin = text.find("[[ring]]"), end = text.find("[errors]");
+  text.insert(end, test::replaced(text.substr(begin, end - begin), "held", "soft"));
+  const auto scene = app::parse_scene(test::replaced(text, "held", "stiff"), "s");
   auto geometry = app::make_geometry(scene);
   const auto mesh = [&](std::size_t ring, double k) {
     StiffnessTable table(

@@ -104,7 +104,7 @@ double run_time(const app::Scene& scene, const std::filesystem::path& folder, co
   if (setting)
     options.remodel = [&](const app::MeshModel& planned) {
       const bool solid = planned.variant.empty() ? !solid_reason(scene).empty()
-                                              : !solid_reason(scene, planetary(scene).rings.front()).empty();
+                                                 : !solid_reason(scene, planetary(scene).rings.front()).empty();
       return setting->applied(planned, solid ? app::AlongFace::varying : app::AlongFace::uniform);
     };
   std::filesystem::remove_all(folder);

@@ -17,7 +17,6 @@ namespace annulus::app {
 /// Inputs that several kinds of gear systems have, in SI units.
 
 using Fidelity = fem::WantedModel;
-enum class Compare { none, computed };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table, iso_6336, closed_form };
 enum class MeshDamping { in_contact, always };
 enum class TipShortening { none, full };
@@ -72,7 +71,6 @@ struct HubGearInput : GearInput {
 /// Mesh stiffness prescribed instead of computed.
 struct MeshInput {
   StiffnessShape stiffness = StiffnessShape::computed;
-  Compare compare = Compare::none;  ///< two_k_v only
   std::optional<double> mean, ripple, duty, phase;
   std::optional<double> half_backlash;  ///< instead of that of [dynamics]
   std::optional<double> damping_ratio;  ///< likewise
@@ -86,7 +84,6 @@ struct DynamicsInput {
   double modal_damping_ratio = 0, rayleigh_mass = 0, rayleigh_stiffness = 0;  ///< 1, 1/s, s
   MeshDamping mesh_damping = MeshDamping::in_contact;
   dynamics::LoadDependence load_dependence = dynamics::LoadDependence::table;
-  dynamics::BearingLaws bearing_laws = dynamics::BearingLaws::tangents;
   dynamics::Integrator integrator = dynamics::Integrator::automatic;
   std::optional<int> steps_per_cycle;  ///< runge_kutta_4 only
   std::optional<int> mesh_cycles;

@@ -62,7 +62,8 @@ Reference read_reference(const std::filesystem::path& file) {
     const auto& order = reference.orders[i];
     if (order.values.empty() || order.values.size() == order.variants.size()) continue;
     const Input& values = *holder.find("order.values", i);
-    throw SceneError(file.string(), {{values.line, values.column, "order.values: needs one value per variant, or none"}});
+    throw SceneError(file.string(),
+                     {{values.line, values.column, "order.values: needs one value per variant, or none"}});
   }
   return reference;
 }

@@ -98,7 +98,7 @@ void put_in_space(dynamics::HelicalPair& pair, const Scene& scene, const PairGeo
   spatial.face = motion_face(geometry.gears, helical_pair(scene).pinion_wheel, face,
                              helical_pair(scene).errors.pinion_wheel_misalignment, GapsAlong::normal);
   about(scene, "bearing", [&] { pair.space = dynamics::pair_about_equilibrium(spatial, of_pinion, of_wheel); });
-  pair.space->laws = scene.dynamics->bearing_laws;
+  pair.space->laws = scene.own<SpaceInput>().bearing_laws;
   pair.space->mass_place_pinion = gravity.pinion;
   pair.space->mass_place_wheel = gravity.wheel;
 }

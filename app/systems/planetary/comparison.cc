@@ -18,8 +18,8 @@ namespace annulus::app {
 namespace {
 
 const Measured* find(const VariantQuantity& quantity, const std::string& ring) {
-  const auto found =
-      std::find_if(quantity.variants.begin(), quantity.variants.end(), [&](const Measured& m) { return m.variant == ring; });
+  const auto found = std::find_if(quantity.variants.begin(), quantity.variants.end(),
+                                  [&](const Measured& m) { return m.variant == ring; });
   return found == quantity.variants.end() ? nullptr : &*found;
 }
 
@@ -28,7 +28,8 @@ std::string numbers_text(const VariantQuantity& quantity) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Measured& a, const Measured& b) { return a.value > b.value; });
   std::string text;
-  for (const auto& m : sorted) text += (text.empty() ? "" : " > ") + m.variant + " " + to_text(m.value, quantity.digits);
+  for (const auto& m : sorted)
+    text += (text.empty() ? "" : " > ") + m.variant + " " + to_text(m.value, quantity.digits);
   return text;
 }
 

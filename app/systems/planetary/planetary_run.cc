@@ -97,8 +97,8 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
   if (options.with_dynamics && scene.dynamics && moves_in_space(scene))
     result.face = face_in_motion(result, geometry.operating_point.mean_mesh_force, options);
   if (options.with_dynamics && may_be_coupled(scene, model)) {
-    result.coupling = std::make_shared<SolvedCoupling>(
-        solve_coupling(scene, geometry, model, 1 / result.mean_stiffness().value, options, options.out / model.variant));
+    result.coupling = std::make_shared<SolvedCoupling>(solve_coupling(
+        scene, geometry, model, 1 / result.mean_stiffness().value, options, options.out / model.variant));
     note_reuse(options, fmt::format("coupling of ring '{}'", model.variant), source_of(result.coupling->reused));
   }
   return result;

@@ -82,7 +82,7 @@ void put_in_space(dynamics::PlanetaryStage& stage, const Scene& scene, const Gea
     if (mesh->face) face->symmetric = fem::asymmetry_of_face(*mesh->model.problem).empty();
   const auto inertias = tilt_inertias(scene, geometry, ring);
   about(scene, "bearing", [&] { stage.space = dynamics::space_about_equilibrium(spatial, inertias); });
-  stage.space->laws = scene.dynamics->bearing_laws;
+  stage.space->laws = scene.own<SpaceInput>().bearing_laws;
   if (const auto& g = scene.own<SpaceInput>().gravity) stage.space->mass_place = {g->sun, g->ring, g->carrier};
   const auto& set = geometry.rings.at(ring).set;
   const auto& e = planetary(scene).errors;

@@ -102,9 +102,9 @@ struct WholeMesh {
 };
 
 /// `c`: cos(base helix angle): forces are 1 / c times those of the transverse section, approaches c times.
-WholeMesh whole_mesh(const dynamics::MeshExcitation& excitation, double phase, double c, double factor, bool back) {
+WholeMesh whole_mesh(const dynamics::MeshExcitation& excitation, double phase, double c, bool back) {
   const auto linear = [&](double stiffness) {
-    const double k = factor * stiffness / (c * c);
+    const double k = stiffness / (c * c);
     return WholeMesh{[k](double d) { return dynamics::MeshPoint{k * d * d / 2, k * d, k}; }, k};
   };
   if (const auto* constant = std::get_if<dynamics::ConstantStiffness>(&excitation)) return linear(constant->mean);
@@ -122,13 +122,11 @@ WholeMesh whole_mesh(const dynamics::MeshExcitation& excitation, double phase, d
   if (!table.surface) return linear(table.secant(at));
   const auto surface = table.surface;
   const double scale = table.secant.mean();
-  // A mesh that is stiffer by a factor has the same forces at deflections smaller by it.
-  return {[surface, at, c, factor](double d) {
-            const double g = d / c * factor;
-            const auto [force, tangent] = (*surface)(at, g);
-            return dynamics::MeshPoint{surface->energy(at, g) / factor, force / c, tangent * factor / (c * c)};
+  return {[surface, at, c](double d) {
+            const auto [force, tangent] = (*surface)(at, d / c);
+            return dynamics::MeshPoint{surface->energy(at, d / c), force / c, tangent / (c * c)};
           },
-          factor * scale / (c * c)};
+          scale / (c * c)};
 }
 
 /// m, of the transverse section: what the flanks are apart without load at a phase.
@@ -150,7 +148,7 @@ StageFace bare_face(const Scene& scene, const geometry::GearPair& pair, const Me
 
 /// Its law: solid gears, or a whole mesh that is spread evenly; back flanks always so.
 void set_law(StageFace& face, const geometry::GearPair& pair, const MeshInput& input,
-             const dynamics::MeshExcitation& excitation, double misalignment, double factor, int stretches,
+             const dynamics::MeshExcitation& excitation, double misalignment, int stretches,
              const std::shared_ptr<const fem::SolidFace>& solid, double mesh_force) {
   const double c = std::cos(pair.pinion().base_helix_angle());
   const auto [stations, gaps] = even_stations(pair, input, misalignment, stretches);
@@ -158,7 +156,7 @@ void set_law(StageFace& face, const geometry::GearPair& pair, const MeshInput& i
                                                    StageFace::Flank flank) -> std::shared_ptr<const FaceLaw> {
     const bool back = flank == StageFace::Flank::back;
     if (solid && !back) return solid->at(phase, mesh_force / c);
-    auto [law, stiffness] = whole_mesh(excitation, phase, c, factor, back);
+    auto [law, stiffness] = whole_mesh(excitation, phase, c, back);
     auto gap = gaps;
     const double unloaded = c * unloaded_error(excitation, phase) * (back ? -1 : 1);
     for (double& g : gap) g = (back ? 0 : g) + unloaded;
@@ -224,9 +222,9 @@ dynamics::SpatialStage make_spatial_stage(const Scene& scene, const GearGeometry
   const auto& set = geometry.rings.at(ring).set;
   const double force = geometry.operating_point.mean_mesh_force;
   set_law(stage.sun_face, set.sun_mesh(), sun_and_planets(scene).sun_planet, plane.sun_mesh,
-          planetary(scene).errors.sun_planet_misalignment, faces.sun_factor, stretches, faces.sun, force);
+          planetary(scene).errors.sun_planet_misalignment, stretches, faces.sun, force);
   set_law(stage.ring_face, set.ring_mesh(), planetary(scene).ring_planet, plane.ring_mesh,
-          planetary(scene).errors.ring_planet_misalignment, faces.ring_factor, stretches, faces.ring, force);
+          planetary(scene).errors.ring_planet_misalignment, stretches, faces.ring, force);
   return stage;
 }
 

@@ -20,7 +20,6 @@ namespace annulus::app {
 struct StageFaces {
   /// Solid gears; null: the table of the mesh, spread evenly.
   std::shared_ptr<const fem::SolidFace> sun{}, ring{};
-  double sun_factor = 1, ring_factor = 1;  ///< of stiffnesses that are spread
   int stretches = face_stretches;
 };
 [[nodiscard]] dynamics::SpatialStage make_spatial_stage(const Scene& scene, const GearGeometry& geometry,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/model/plan_studies.h"
+#include "app/model/table_errors.h"
 #include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
@@ -27,16 +28,10 @@ namespace annulus::app {
 
 namespace {
 
+using dynamics::SpatialStage;
 using dynamics::StaticPosition;
 using dynamics::StaticSchedule;
 using dynamics::StaticTurn;
-
-/// What the error of a result is the difference to.
-struct OtherTurn {
-  StaticTurn turn;
-  double weight = 1;
-  double at_kinks = 1;  ///< weight for results that change suddenly, as the largest load along a face
-};
 
 /// One of its places, or phases, in two.
 StaticTurn every_second(const StaticTurn& turn, bool places, std::size_t from) {
@@ -55,11 +50,6 @@ StaticTurn every_second(const StaticTurn& turn, bool places, std::size_t from) {
   return half;
 }
 
-struct Comparisons {
-  std::vector<OtherTurn> others;
-  std::vector<StaticTurn> places;  ///< one by one, where they follow each other smoothly around a turn
-};
-
 std::vector<StaticTurn> one_by_one(const StaticTurn& turn) {
   std::vector<StaticTurn> list;
   const auto phases = static_cast<std::ptrdiff_t>(turn.schedule.phases);
@@ -72,26 +62,16 @@ std::vector<StaticTurn> one_by_one(const StaticTurn& turn) {
   return list;
 }
 
-/// What the largest value may be missed by between places: the sagitta of a parabola through it and its neighbours.
-double missed_between(const std::vector<StaticTurn>& places, const std::function<double(const StaticTurn&)>& value) {
-  const std::size_t count = places.size();
-  if (count < 3) return 0;
-  std::vector<double> values;
-  for (const auto& place : places) values.push_back(value(place));
-  const auto at = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
-  return std::abs(values[(at + count - 1) % count] - 2 * values[at] + values[(at + 1) % count]) / 8;
-}
-
-/// The largest value of a turn. Its error adds up the differences to others and what lies between the places.
+/// How a result follows the positions; with kinks it changes suddenly, as the largest load along a face does.
 enum class Course { smooth, with_kinks };
-Figure with_error(const StaticTurn& turn, const Comparisons& compared,
-                  const std::function<double(const StaticTurn&)>& value, Course course = Course::smooth) {
-  Figure figure{value(turn), missed_between(compared.places, value)};
-  for (const auto& other : compared.others)
-    figure.error +=
-        (course == Course::smooth ? other.weight : other.at_kinks) * std::abs(value(other.turn) - figure.value);
-  return figure;
-}
+
+/// The largest value of something in a turn.
+struct StaticResult {
+  std::string key;
+  std::function<double(const StaticTurn&)> largest;
+  Course course = Course::smooth;
+};
+using StaticResults = std::vector<StaticResult>;
 
 double largest(const StaticTurn& turn, const std::function<double(const StaticPosition&)>& value) {
   double most = 0;
@@ -99,48 +79,97 @@ double largest(const StaticTurn& turn, const std::function<double(const StaticPo
   return most;
 }
 
-FigureSet all_figures(const StaticTurn& turn, const Comparisons& compared) {
+void add_mesh_results(const StaticTurn& turn, StaticResults& list) {
   using dynamics::StaticFigures;
-  FigureSet set;
-  const auto add = [&](const char* name, StaticFigures::Mesh StaticFigures::*mesh, const char* key,
-                       double StaticFigures::Mesh::*member, Course course) {
-    set.set(fmt::format("{}_static_{}", name, key),
-            with_error(
-                turn, compared, [&](const StaticTurn& t) { return dynamics::figures_of(t).*mesh.*member; }, course));
-  };
-  for (const auto& [name, mesh] :
-       {std::pair{"sun_planet", &StaticFigures::sun}, {"ring_planet", &StaticFigures::ring}}) {
-    add(name, mesh, "load_sharing", &StaticFigures::Mesh::sharing, Course::smooth);
-    add(name, mesh, "load_sharing_instantaneous", &StaticFigures::Mesh::sharing_instantaneous, Course::smooth);
+  for (const auto& [name, mesh, stations] : {std::tuple{"sun_planet", &StaticFigures::sun, &turn.sun_stations},
+                                             {"ring_planet", &StaticFigures::ring, &turn.ring_stations}}) {
+    const auto add = [&, mesh = mesh](const char* key, double StaticFigures::Mesh::*member, Course course) {
+      list.push_back({fmt::format("{}_static_{}", name, key),
+                      [=](const StaticTurn& t) { return dynamics::figures_of(t).*mesh.*member; }, course});
+    };
+    add("load_sharing", &StaticFigures::Mesh::sharing, Course::smooth);
+    add("load_sharing_instantaneous", &StaticFigures::Mesh::sharing_instantaneous, Course::smooth);
     // A face of two stations is that of a plane stage, along which nothing is modelled.
-    const auto& stations = mesh == &StaticFigures::sun ? turn.sun_stations : turn.ring_stations;
-    if (stations.size() > 2) {
-      add(name, mesh, "face_load_factor", &StaticFigures::Mesh::line_load_ratio, Course::smooth);
-      add(name, mesh, "face_load_factor_instantaneous", &StaticFigures::Mesh::line_load_ratio_instantaneous,
-          Course::with_kinks);
-    }
+    if (stations->size() <= 2) continue;
+    add("face_load_factor", &StaticFigures::Mesh::line_load_ratio, Course::smooth);
+    add("face_load_factor_instantaneous", &StaticFigures::Mesh::line_load_ratio_instantaneous, Course::with_kinks);
   }
+}
+
+std::string bearing_key(std::size_t bearing, const char* what) { return fmt::format("bearing{}_{}", bearing, what); }
+std::string tilt_key(std::size_t body) { return fmt::format("tilt{}", body); }
+
+StaticResults results_of(const StaticTurn& turn) {
+  StaticResults list;
+  add_mesh_results(turn, list);
+  const auto add = [&](const std::string& key, const std::function<double(const StaticPosition&)>& value) {
+    list.push_back({key, [value](const StaticTurn& t) { return largest(t, value); }});
+  };
+  for (std::size_t b = 0; b < turn.bearing_names.size(); ++b) {
+    const auto bearing = [&](const char* what, const std::function<double(const dynamics::StaticBearing&)>& value) {
+      add(bearing_key(b, what), [b, value](const StaticPosition& p) { return value(p.bearings.at(b)); });
+    };
+    bearing("radial", [](const auto& x) { return x.force.template head<2>().norm(); });
+    bearing("axial", [](const auto& x) { return std::abs(x.force.z()); });
+    bearing("moment", [](const auto& x) { return x.moment.norm(); });
+    bearing("element", [](const auto& x) { return x.largest_element; });
+  }
+  for (std::size_t b = 0; b < turn.body_names.size(); ++b)
+    add(tilt_key(b), [b](const StaticPosition& p) { return p.bodies.at(b).rotation.head<2>().norm(); });
+  return list;
+}
+
+FigureSet values(const StaticResults& results, const StaticTurn& turn) {
+  FigureSet set;
+  for (const auto& result : results) set.set(result.key, {result.largest(turn), 0});
   return set;
 }
 
-std::vector<BearingStatics> all_bearings(const dynamics::SpatialStage& stage, const StaticTurn& turn,
-                                         const Comparisons& compared) {
+/// The results of a stage, whose errors add up what other turns make of them.
+struct StaticErrors {
+  const StaticResults& results;
+  FigureSet figures;
+
+  void add(const std::string& key, double ErrorParts::*part, double error) {
+    const auto entry = *figures.find(key);
+    auto parts = entry.parts;
+    parts.*part += error;
+    figures.set(key, {entry.figure.value, parts.total()}, parts);
+  }
+  /// `weight`: of results that change smoothly.
+  void add_difference(const StaticTurn& other, double ErrorParts::*part, double weight = 1) {
+    for (const auto& result : results)
+      add(result.key, part,
+          (result.course == Course::smooth ? weight : 1) * std::abs(result.largest(other) - figures.value(result.key)));
+  }
+  /// What the largest values may be missed by between places that follow each other smoothly around a turn: the sagitta
+  /// of a parabola through the largest and its neighbours.
+  void add_between(const std::vector<StaticTurn>& places) {
+    const std::size_t count = places.size();
+    if (count < 3) return;
+    for (const auto& result : results) {
+      std::vector<double> list;
+      for (const auto& place : places) list.push_back(result.largest(place));
+      const auto at = static_cast<std::size_t>(std::max_element(list.begin(), list.end()) - list.begin());
+      add(result.key, &ErrorParts::interpolation,
+          std::abs(list[(at + count - 1) % count] - 2 * list[at] + list[(at + 1) % count]) / 8);
+    }
+  }
+};
+
+std::vector<BearingStatics> all_bearings(const SpatialStage& stage, const StaticTurn& turn, const FigureSet& figures) {
   std::vector<BearingStatics> list;
   const auto made = dynamics::assemble(stage, 0);
   for (std::size_t b = 0; b < turn.bearing_names.size(); ++b) {
-    BearingStatics bearing{turn.bearing_names[b], dynamics::name_of_body(made.bearings.at(b).body)};
-    const auto most = [&](const std::function<double(const dynamics::StaticBearing&)>& value) {
-      return with_error(turn, compared, [&](const StaticTurn& t) {
-        return largest(t, [&](const StaticPosition& p) { return value(p.bearings.at(b)); });
-      });
-    };
-    bearing.radial = most([](const auto& x) { return x.force.template head<2>().norm(); });
-    bearing.axial = most([](const auto& x) { return std::abs(x.force.z()); });
-    bearing.moment = most([](const auto& x) { return x.moment.norm(); });
-    if (made.bearings.at(b).rolling) bearing.element = most([](const auto& x) { return x.largest_element; });
+    const auto of = [&](const char* what) { return figures.figure(bearing_key(b, what)); };
+    auto& bearing = list.emplace_back(BearingStatics{.name = turn.bearing_names[b],
+                                                     .body = dynamics::name_of_body(made.bearings.at(b).body),
+                                                     .radial = of("radial"),
+                                                     .axial = of("axial"),
+                                                     .moment = of("moment")});
+    if (made.bearings.at(b).rolling) bearing.element = of("element");
     for (const auto& p : turn.positions) bearing.mean_radial += p.bearings[b].force.head<2>().norm();
     bearing.mean_radial /= static_cast<double>(turn.positions.size());
-    list.push_back(std::move(bearing));
   }
   return list;
 }
@@ -165,7 +194,7 @@ void mirror(StaticTurn& turn) {
 
 /// Places and phases that show something. One period of the housing is smooth; several at once, as of eccentric gears,
 /// need more places to meet their worst coincidence.
-StaticSchedule schedule_of(const Scene& scene, const dynamics::SpatialStage& stage, const StageFaces& faces) {
+StaticSchedule schedule_of(const Scene& scene, const SpatialStage& stage, const StageFaces& faces) {
   const auto& wanted = scene.own<StructureInput>().statics;
   const bool in_cycle =
       varies_in_cycle(sun_and_planets(scene).sun_planet) || varies_in_cycle(planetary(scene).ring_planet);
@@ -191,13 +220,7 @@ void check_sun(const Scene& scene) {
         scene.file.string()));
 }
 
-/// Bodies of computed meshes, whose stiffness is known to their error.
-double stiffness_error(const MeshResult& mesh) {
-  const double error = mesh.mean_stiffness().error_relative;
-  return mesh.model.computed() && std::isfinite(error) ? error : 0.0;
-}
-
-void warn_of_back_flanks(std::vector<Warning>& list, const StaticTurn& turn, const dynamics::SpatialStage& stage,
+void warn_of_back_flanks(std::vector<Warning>& list, const StaticTurn& turn, const SpatialStage& stage,
                          const std::string& ring) {
   int count = 0;
   for (const auto& p : turn.positions) {
@@ -236,7 +259,7 @@ void warn_of_loads_beyond(std::vector<Warning>& list, const StaticTurn& turn, co
 }
 
 /// Bearings that bear more than the end of their table.
-void warn_of_bearing_tables(std::vector<Warning>& list, const StaticTurn& turn, const dynamics::SpatialStage& stage,
+void warn_of_bearing_tables(std::vector<Warning>& list, const StaticTurn& turn, const SpatialStage& stage,
                             const std::string& ring) {
   for (std::size_t i = 0; i < stage.bearings.size(); ++i) {
     const auto& bearing = stage.bearings[i];
@@ -255,6 +278,22 @@ struct RingProblem {
   const std::shared_ptr<const fem::SolidFace>&sun_face, &ring_face;
 };
 
+/// The results with the errors that the tables of meshes without solid faces bring.
+FigureSet with_errors_of_tables(const RingProblem& of, const StageFaces& faces, const StaticResults& results,
+                                const FigureSet& nominal, const std::function<StaticTurn(const SpatialStage&)>& solve) {
+  std::vector<const MeshResult*> tables;
+  if (!faces.sun) tables.push_back(&of.sun_mesh);
+  if (!faces.ring) tables.push_back(&of.ring_mesh);
+  const auto evaluate = [&](const std::vector<const MeshResult*>& changed) {
+    const auto& sun = faces.sun ? of.sun_mesh : *changed.front();
+    const auto& ring = faces.ring ? of.ring_mesh : *changed.back();
+    const auto stage = make_spatial_stage(of.scene, of.geometry, of.ring, sun, ring, faces);
+    return dynamics::Evaluation{values(results, solve(stage)), {}};
+  };
+  return with_table_errors({nominal, {}}, tables, evaluate,
+                           {.simulation = {}, .seeks_steady_state = false, .nominal_alike = true});
+}
+
 RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
   const auto make = [&](const StageFaces& faces) {
     return make_spatial_stage(of.scene, of.geometry, of.ring, of.sun_mesh, of.ring_mesh, faces);
@@ -265,48 +304,39 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
   RingStatics result;
   result.ring = planetary(of.scene).rings[of.ring].name;
   result.turn = dynamics::solve_turn(stage, schedule, options.threads);
-  const auto changed = [&](const StageFaces& with) {
-    return dynamics::solve_turn(make(with), schedule, options.threads, &result.turn);
+  const auto solve = [&](const SpatialStage& changed) {
+    return dynamics::solve_turn(changed, schedule, options.threads, &result.turn);
   };
-  Comparisons compared;
-  auto& others = compared.others;
+  const auto results = results_of(result.turn);
+  StaticErrors errors{results, with_errors_of_tables(of, faces, results, values(results, result.turn), solve)};
   // What lies between the positions of a smooth course falls with the square of their distance: half of them leave four
   // times as much. The other half has the largest value where one does not. Several periods at once are met by chance.
   constexpr double of_half = 1.0 / 3;
   const bool one_period = stage.plane.error_period() == 1;
-  const double of_places = one_period ? of_half : 1.0;
-  if (one_period) compared.places = one_by_one(result.turn);
+  if (one_period) errors.add_between(one_by_one(result.turn));
   for (const std::size_t from : {0u, 1u}) {
-    if (schedule.cycles.size() > 1) others.push_back({every_second(result.turn, true, from), of_places});
-    if (schedule.phases > 1) others.push_back({every_second(result.turn, false, from), of_half});
+    if (schedule.cycles.size() > 1)
+      errors.add_difference(every_second(result.turn, true, from), &ErrorParts::interpolation,
+                            one_period ? of_half : 1);
+    if (schedule.phases > 1)
+      errors.add_difference(every_second(result.turn, false, from), &ErrorParts::interpolation, of_half);
   }
   // The elements leave no more than what a level changes.
   if (faces.sun || faces.ring)
-    others.push_back(
-        {changed({.sun = solid_face(of.sun_mesh, options, 1), .ring = solid_face(of.ring_mesh, options, 1)})});
+    errors.add_difference(
+        solve(make({.sun = solid_face(of.sun_mesh, options, 1), .ring = solid_face(of.ring_mesh, options, 1)})),
+        &ErrorParts::discretisation);
   const auto spread = [&](const std::shared_ptr<const fem::SolidFace>& face) { return !face; };
   if ((spread(faces.sun) && result.turn.sun_stations.size() > 2) ||
       (spread(faces.ring) && result.turn.ring_stations.size() > 2)) {
     auto fewer = faces;
     fewer.stretches /= 2;
-    others.push_back({changed(fewer), of_half});
+    errors.add_difference(solve(make(fewer)), &ErrorParts::discretisation, of_half);
   }
-  if (const double error = stiffness_error(of.sun_mesh); error > 0 && spread(faces.sun)) {
-    auto stiffer = faces;
-    stiffer.sun_factor += error;
-    others.push_back({changed(stiffer)});
-  }
-  if (const double error = stiffness_error(of.ring_mesh); error > 0 && spread(faces.ring)) {
-    auto stiffer = faces;
-    stiffer.ring_factor += error;
-    others.push_back({changed(stiffer)});
-  }
-  result.figures = all_figures(result.turn, compared);
-  result.bearings = all_bearings(stage, result.turn, compared);
+  result.figures = errors.figures;
+  result.bearings = all_bearings(stage, result.turn, result.figures);
   for (std::size_t b = 0; b < result.turn.body_names.size(); ++b)
-    result.tilt.push_back(with_error(result.turn, compared, [&](const StaticTurn& t) {
-      return largest(t, [&](const StaticPosition& p) { return p.bodies.at(b).rotation.head<2>().norm(); });
-    }));
+    result.tilt.push_back(result.figures.figure(tilt_key(b)));
   result.reasons = stage.reasons_for_space();
   result.period = dynamics::period_of(stage);
   result.mean_mesh_force = stage.plane.mean_mesh_force();
@@ -350,8 +380,8 @@ StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, con
   for (const auto& model : mesh_models(scene, geometry)) {
     auto& mesh = tables.emplace_back(mesh_stiffness(scene, geometry, model, options));
     if (may_be_coupled_at_rest(scene, model))
-      mesh.coupling = std::make_shared<SolvedCoupling>(
-          solve_coupling(scene, geometry, model, 1 / mesh.mean_stiffness().value, options, options.out / model.variant));
+      mesh.coupling = std::make_shared<SolvedCoupling>(solve_coupling(
+          scene, geometry, model, 1 / mesh.mean_stiffness().value, options, options.out / model.variant));
     faces.push_back(solid_face(mesh, options));
   }
   StageStatics statics{scene, {}};

@@ -127,7 +127,9 @@ Csv face_csv(const RingStatics& ring, const MeshKind& kind) {
   return csv;
 }
 
-Json figure_json(const Figure& figure) { return {{"value", figure.value}, {"error", figure.error}}; }
+Json figure_json(const Figure& figure) {
+  return {{"value", json_number(figure.value)}, {"error", json_number(figure.error)}};
+}
 
 /// Null where the forces never repeat.
 Json period_json(const RingStatics& ring) {
@@ -148,7 +150,11 @@ std::string positions_text(const RingStatics& ring) {
 
 Json ring_json(const RingStatics& ring) {
   Json json;
-  for (const auto& entry : ring.figures.entries()) json["results"][entry.key] = figure_json(entry.figure);
+  for (const auto& spec : static_figures())
+    if (const auto* entry = ring.figures.find(spec.key)) {
+      auto& json_entry = json["results"][entry->key] = figure_json(entry->figure);
+      json_entry["error_parts"] = to_json(entry->parts);
+    }
   json["mean_mesh_force_N"] = ring.mean_mesh_force;
   json["degrees_of_freedom"] = ring.reasons.empty() ? "plane" : "space";
   json["reasons_for_space"] = ring.reasons;
@@ -199,7 +205,9 @@ Section results_section(const StageStatics& statics) {
     }
     if (any) table.rows.push_back(std::move(row));
   }
-  return {"results", "Results", table};
+  std::vector<VariantFigures> variants;
+  for (const auto& ring : statics.rings) variants.push_back({ring.ring, ring.figures});
+  return {"results", "Results", table + error_parts(static_figures(), variants)};
 }
 
 Series over_turn(const RingStatics& ring, const std::string& label, std::size_t colour,

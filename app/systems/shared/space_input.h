@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/spatial/stage_bearing.h"
+#include "dynamics/spatial/stage_bodies.h"
 
 /// What scenes of systems have whose bodies tilt; SI.
 namespace annulus::app {
@@ -75,6 +76,7 @@ struct SpaceInput {
   std::vector<LoadInput> loads;
   std::optional<GravityInput> gravity;
   TiltInertiaInput tilt_inertia;
+  dynamics::BearingLaws bearing_laws = dynamics::BearingLaws::tangents;
 
   [[nodiscard]] bool any() const { return !bearings.empty() || !loads.empty() || gravity; }
   [[nodiscard]] bool has_bearing(BearingInput::Body body) const;

@@ -257,10 +257,10 @@ Table gravity_table(const KindInSpace& of) {
 }
 
 Table bearing_laws_key() {
-  Declarations lumped("dynamics", "", &Scene::dynamics);
+  Declarations<SpaceInput> lumped("dynamics", "");
   lumped
       .choice(
-          "bearing_laws", &DynamicsInput::bearing_laws,
+          "bearing_laws", &SpaceInput::bearing_laws,
           {{"tangents", dynamics::BearingLaws::tangents}, {"whole", dynamics::BearingLaws::whole}},
           "How [[bearing]] with clearance, rolling elements or a table act in motion. tangents: with their stiffness "
           "at the equilibrium; whole: by their law at every instant, which takes longer.")

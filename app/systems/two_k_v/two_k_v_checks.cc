@@ -17,9 +17,10 @@ namespace annulus::app {
 
 namespace {
 
-/// Instead of a prescribed stiffness, or besides it.
-bool needs_bodies(const MeshInput& mesh) {
-  return mesh.stiffness == StiffnessShape::computed || mesh.compare == Compare::computed;
+/// Whether the sun mesh is computed, instead of a prescribed stiffness or besides it.
+bool computes_sun_mesh(const Scene& scene) {
+  return sun_and_planets(scene).sun_planet.stiffness == StiffnessShape::computed ||
+         two_k_v(scene).compare_sun_planet == Compare::computed;
 }
 
 class TwoKVChecker : KeyChecks {
@@ -86,7 +87,7 @@ class TwoKVChecker : KeyChecks {
 
   void plane_models() {
     const bool plane = scene_.fidelity == Fidelity::plane || scene_.fidelity == Fidelity::closed_form;
-    if (!plane || !needs_bodies(sun_and_planets(scene_).sun_planet)) return;
+    if (!plane || !computes_sun_mesh(scene_)) return;
     const std::string why = fem::solid_reason(
         {}, face_features(scene_, sun_and_planets(scene_).planet, "planet", sun_and_planets(scene_).sun, "sun", 0));
     if (!why.empty())
@@ -106,8 +107,7 @@ class TwoKVChecker : KeyChecks {
 void check_two_k_v_scene(Scene& scene, std::vector<Problem>& problems) { TwoKVChecker(scene, problems).run(); }
 
 void check_two_k_v_geometry(const Scene& scene, const geometry::GearPair& pair) {
-  const bool elastic = needs_bodies(sun_and_planets(scene).sun_planet);
-  if (elastic) {
+  if (computes_sun_mesh(scene)) {
     check_bore(scene, "sun", sun_and_planets(scene).sun, pair.wheel());
     check_bore(scene, "planet", sun_and_planets(scene).planet, pair.pinion());
   }
@@ -121,7 +121,7 @@ void check_two_k_v_geometry(const Scene& scene, const geometry::GearPair& pair) 
     check_bearing(scene, "crank.bearing_N_per_m", *two_k_v(scene).crank.bearing, crank);
     check_bearing(scene, "arc_gear.bearing_N_per_m", *two_k_v(scene).arc_gear.bearing, arc_force);
   }
-  if (elastic)
+  if (computes_sun_mesh(scene))
     check_load(scene, load, sun_force, pair.common_face().width,
                fem::MeshMaterials(material_of(scene, sun_and_planets(scene).planet),
                                   material_of(scene, sun_and_planets(scene).sun))

@@ -38,11 +38,15 @@ struct OutputInput {
   std::optional<double> damping;
 };
 
+/// Whether a prescribed stiffness is also computed.
+enum class Compare { none, computed };
+
 /// What the scene of a 2K-V reducer has of its own, besides sun and planets (sun_planet_input.h).
 struct TwoKVInput {
   CrankInput crank;
   ArcGearInput arc_gear;
   MeshInput arc_pins;
+  Compare compare_sun_planet = Compare::none, compare_arc_pins = Compare::none;
   InputShaftInput input;
   OutputInput output;
 };

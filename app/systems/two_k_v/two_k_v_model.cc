@@ -89,8 +89,10 @@ std::optional<dynamics::ArcToothMesh> arc_tooth_mesh(const Scene& scene) {
 std::optional<Scene> compared_scene(const Scene& scene) {
   Scene changed = scene;
   bool any = false;
-  for (auto* mesh : {&sun_and_planets(changed).sun_planet, &two_k_v(changed).arc_pins}) {
-    if (mesh->compare != Compare::computed || is_computed(*mesh)) continue;
+  auto& own = two_k_v(changed);
+  for (const auto& [mesh, compare] : {std::pair{&sun_and_planets(changed).sun_planet, own.compare_sun_planet},
+                                      {&own.arc_pins, own.compare_arc_pins}}) {
+    if (compare != Compare::computed || is_computed(*mesh)) continue;
     mesh->stiffness = StiffnessShape::computed;
     any = true;
   }

@@ -154,9 +154,9 @@ Table output_table() {
   return output.done();
 }
 
-Table comparable_mesh_table(Declarations<MeshInput> keys) {
-  auto mesh = declare_mesh(std::move(keys));
-  mesh.choice("compare", &MeshInput::compare, {{"none", Compare::none}, {"computed", Compare::computed}},
+Table compare_key(const char* mesh_table, Compare TwoKVInput::*member) {
+  Declarations<TwoKVInput> mesh(mesh_table, "");
+  mesh.choice("compare", member, {{"none", Compare::none}, {"computed", Compare::computed}},
               "Whether a prescribed stiffness is also computed; the report then shows all results with both.")
       .only_if(!is("stiffness", {"computed"}), "this mesh is computed anyway")
       .fallback("none", "the prescribed stiffness alone");
@@ -166,20 +166,24 @@ Table comparable_mesh_table(Declarations<MeshInput> keys) {
 }  // namespace
 
 std::vector<Table> two_k_v_tables() {
-  return {two_k_v_stage_table(),
-          turning_gear_table("sun", "The sun gear.", &SunPlanetInput::sun, Mass::none),  // it only turns
-          turning_gear_table("planet", "Each planet gear.", &SunPlanetInput::planet, Mass::own),
-          crank_table(),
-          arc_gear_table(),
-          input_shaft_table(),
-          output_table(),
-          rotor_table(),
-          comparable_mesh_table({"mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.",
-                                 &SunPlanetInput::sun_planet}),
-          comparable_mesh_table(
-              {"mesh.arc_pins",
-               "Stiffness of the arc teeth on their pins, prescribed instead of computed by the contact formulas.",
-               &TwoKVInput::arc_pins})};
+  return {
+      two_k_v_stage_table(),
+      turning_gear_table("sun", "The sun gear.", &SunPlanetInput::sun, Mass::none),  // it only turns
+      turning_gear_table("planet", "Each planet gear.", &SunPlanetInput::planet, Mass::own),
+      crank_table(),
+      arc_gear_table(),
+      input_shaft_table(),
+      output_table(),
+      rotor_table(),
+      declare_mesh({"mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.",
+                    &SunPlanetInput::sun_planet})
+          .done(),
+      compare_key("mesh.sun_planet", &TwoKVInput::compare_sun_planet),
+      declare_mesh({"mesh.arc_pins",
+                    "Stiffness of the arc teeth on their pins, prescribed instead of computed by the contact formulas.",
+                    &TwoKVInput::arc_pins})
+          .done(),
+      compare_key("mesh.arc_pins", &TwoKVInput::compare_arc_pins)};
 }
 
 }  // namespace annulus::app
