@@ -83,14 +83,5 @@ struct ExtrudeOptions {
 /// gmsh MSH 4.1 in m: one entity and one named physical group per region and per boundary. Throws Error on a failed
 /// write.
 void write_msh(const Mesh& mesh, const std::filesystem::path& file);
-/// Values at the vertices of a mesh, [vertex][component].
-struct PointData {
-  std::string name;  ///< with its unit: "displacement_m"
-  int components = 1;
-  std::vector<float> values;
-};
-/// VTK XML unstructured grid in m with the cell data `region` and what is known of its points. Throws Error on a failed
-/// write.
-void write_vtu(const Mesh& mesh, const std::filesystem::path& file, const std::vector<PointData>& data = {});
 
 }  // namespace annulus::geometry

@@ -1,3 +1,5 @@
+#include "geometry/vtu_file.h"
+
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -14,7 +16,6 @@
 
 #include "core/errors.h"
 #include "core/files.h"
-#include "geometry/mesh.h"
 
 namespace annulus::geometry {
 
@@ -50,16 +51,21 @@ std::string compressed(const std::vector<Number>& values) {
 }
 
 template <class Number>
-void add_array(std::string& text, std::string_view type, std::string_view name, int components,
-               const std::vector<Number>& values) {
-  fmt::format_to(std::back_inserter(text),
-                 "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}\n</DataArray>\n",
-                 type, name, components, compressed(values));
+void add_array(std::string& text, std::string_view type, std::string_view name, std::size_t components,
+               const std::vector<Number>& values, const std::vector<std::string>& component_names = {}) {
+  std::string names;
+  for (std::size_t i = 0; i < component_names.size(); ++i)
+    names += fmt::format(" ComponentName{}=\"{}\"", i, component_names[i]);
+  fmt::format_to(
+      std::back_inserter(text),
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">\n{}\n</DataArray>\n", type,
+      name, components, names, compressed(values));
 }
 
 }  // namespace
 
-void write_vtu(const Mesh& mesh, const std::filesystem::path& file, const std::vector<PointData>& data) {
+void write_vtu(const Mesh& mesh, const std::filesystem::path& file, const std::vector<PointData>& data,
+               const std::vector<FieldValue>& facts) {
   const bool solid = mesh.dimension == 3;
   const int corners = solid ? 8 : 4;
   constexpr int vtk_quad = 9;
@@ -76,10 +82,17 @@ void write_vtu(const Mesh& mesh, const std::filesystem::path& file, const std::v
   std::vector<std::int32_t> regions;
   for (const auto region : mesh.regions) regions.push_back(static_cast<std::int32_t>(region));
 
-  std::string text = fmt::format(
+  std::string text(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\" "
-      "compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-      mesh.vertices.size(), mesh.cells.size());
+      "compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n");
+  if (!facts.empty()) {
+    text += "<FieldData>\n";
+    for (const auto& [name, value] : facts)
+      text += fmt::format("<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n",
+                          name, value);
+    text += "</FieldData>\n";
+  }
+  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.vertices.size(), mesh.cells.size());
   text += "<Points>\n";
   // Fields are in single precision; so is what they stand on.
   if (data.empty())
@@ -94,8 +107,9 @@ void write_vtu(const Mesh& mesh, const std::filesystem::path& file, const std::v
   add_array(text, "Int32", "region", 1, regions);
   text += "</CellData>\n<PointData>\n";
   for (const auto& d : data) {
-    require(d.values.size() == mesh.vertices.size() * static_cast<std::size_t>(d.components), "values at every vertex");
-    add_array(text, "Float32", d.name, d.components, d.values);
+    const auto components = std::max<std::size_t>(1, d.components.size());
+    require(d.values.size() == mesh.vertices.size() * components, "values at every vertex");
+    add_array(text, "Float32", d.name, components, d.values, d.components);
   }
   text += "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   write_file(file, text);

@@ -21,7 +21,7 @@ tests=(python3 python3-jsonschema clang-format
   parallel slurmctld slurmd slurm-client munge)  # they start the workers of a study
 all=(
   calculix-ccx octave    # benchmarks compare with them
-  python3-h5py chromium  # they read exports and reports
+  python3-h5py python3-vtk9 chromium  # they read exports and reports
 )
 site=(mkdocs mkdocs-material doxygen
   python3-scipy python3-matplotlib python3-nbconvert python3-ipykernel  # of the notebooks

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "app/export/fields.h"
 #include "app/export/matrices.h"
 #include "app/export/rexs.h"
 #include "app/export/table_text.h"
@@ -109,6 +110,10 @@ std::vector<std::filesystem::path> write_matrices_apart(const Scene& scene, cons
   return write_matrix_market(wanted.file, lumped_matrices(scene, wanted.variant, wanted.threads));
 }
 
+std::vector<std::filesystem::path> write_fields(const Scene& scene, const SceneExport& wanted) {
+  return write_mesh_cycle(scene, wanted.variant, wanted.threads, wanted.file);
+}
+
 std::string formats_of_scenes() {
   std::vector<std::string> names;
   for (const auto& format : export_formats())
@@ -128,6 +133,7 @@ const std::vector<ExportFormat>& export_formats() {
       {"adams", ".adm", "SPLINE statements of Adams", adams_text},
       {"rexs", ".rexs", "gear data of a scene as REXS 1.4 (XML)", nullptr, nullptr, write_rexs},
       {"mtx", ".mtx", "matrices of a scene, Matrix Market", nullptr, nullptr, write_matrices_apart},
+      {"paraview", ".pvd", "deformed bodies of a scene over a mesh cycle", nullptr, nullptr, write_fields},
       {"png", ".png", "a picture of a report (OUT/pictures/*.svg) in pixels"}};
   return formats;
 }

@@ -29,10 +29,10 @@ struct ExportFormat {
 /// Writes `source` in `format`; `out` empty: beside the source, with the format's ending; `variant` chooses one of a
 /// scene with several. Returns what was written.
 ///
-///     stiffness_<mesh>.csv       all formats but rexs, mtx and png
+///     stiffness_<mesh>.csv       all formats but rexs, mtx, paraview and png
 ///     ring_compliance.csv        csv, hdf5, matlab: the compliance and the stiffness matrix of the ring
 ///     other tables of a run      csv, hdf5, matlab: a vector per column
-///     a scene (.toml)            rexs; hdf5, matlab, mtx: the matrices of its lumped system
+///     a scene (.toml)            rexs; hdf5, matlab, mtx: the matrices of its lumped system; paraview: its bodies
 ///     a picture (.svg)           png
 ///
 /// Throws InputError when the source is none of these or cannot be had in that format.

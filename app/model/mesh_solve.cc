@@ -4,12 +4,14 @@
 
 #include <optional>
 
+#include "app/model/field_files.h"
 #include "app/plan/cost_plan.h"
 #include "app/process/held_limits.h"
 #include "app/process/progress.h"
 #include "app/results/cached_value.h"
 #include "core/file_guard.h"
 #include "core/log.h"
+#include "geometry/vtu_file.h"
 
 namespace annulus::app {
 
@@ -22,42 +24,33 @@ std::string result_id(const MeshModel& model, const RunOptions& options) {
   return identity_of(model.id(), model.mesh, model.variant, options.for_study);
 }
 
-std::vector<geometry::PointData> point_data(const fem::BodyField& field) {
-  geometry::PointData displacement{"displacement_m", 3, {}}, von_mises{"von_mises_Pa", 1, {}},
-      stress{"stress_xx_yy_zz_xy_yz_zx_Pa", 6, {}};
-  for (std::size_t v = 0; v < field.displacement.size(); ++v) {
-    for (int c = 0; c < 3; ++c) displacement.values.push_back(static_cast<float>(field.displacement[v][c]));
-    von_mises.values.push_back(static_cast<float>(field.von_mises(v)));
-    for (const double s : field.stress[v]) stress.values.push_back(static_cast<float>(s));
-  }
-  return {std::move(displacement), std::move(von_mises), std::move(stress)};
-}
-
-/// The .msh and .vtu files of both bodies, written into `folder`; nothing for those that the solution does not have.
+/// The .msh and .vtu files of both bodies and of their fields, written into `folder`; nothing for those that the solution
+/// does not have.
 FileSet body_files(const MeshModel& model, const fem::LoadedMeshResult& solved, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   std::vector<std::string> names;
-  const auto file = [&](const std::string& body, const char* ending) {
-    names.push_back(model.mesh + "_" + body + ending);
-    remove_file(folder / names.back());
-    return folder / names.back();
+  const auto file = [&](const std::string& name) {
+    names.push_back(name);
+    remove_file(folder / name);
+    return folder / name;
   };
   for (const auto& [mesh, body] :
        {std::pair{&solved.pinion_sector, model.pinion_body}, {&solved.wheel_sector, model.wheel_body}}) {
-    const auto msh = file(body, ".msh"), vtu = file(body, ".vtu"), field_vtu = file(body, "_field.vtu");
+    const auto stem = model.mesh + "_" + body;
+    const auto msh = file(stem + ".msh"), vtu = file(stem + ".vtu");
     if (mesh->cells.empty()) continue;  // a closed form meshes nothing
     geometry::write_msh(*mesh, msh);
     geometry::write_vtu(*mesh, vtu);
-    for (const auto& field : solved.fields)
-      if ((field.body == geometry::GearRole::pinion) == (mesh == &solved.pinion_sector))
-        geometry::write_vtu(field.mesh, field_vtu, point_data(field));
   }
+  const auto fields = model.mesh + "_field";
+  for (const auto& name : field_file_names(model, fields)) (void)file(name);
+  if (!solved.fields.empty()) write_field_files(model, solved, 0, folder, fields);
   return read_files(folder, names);
 }
 
 }  // namespace
 
-fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& options) {
+fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& options, fem::Recovery recovery) {
   const int threads = options.threads;
   // Formulas take a fraction of a second: the study that asks for them has a progress of its own.
   std::optional<Progress> progress;
@@ -69,7 +62,7 @@ fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& op
   fem::LoadedMeshSettings settings = model.settings;
   settings.threads = threads;
   settings.store = options.store;
-  settings.recovery = options.for_study ? fem::Recovery::stresses : fem::Recovery::fields;
+  settings.recovery = recovery;
   settings.progress = update;
   settings.before_level = [&](int degree, int level) {
     check_held_memory(
@@ -92,7 +85,8 @@ fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& op
 }
 
 MeshResult solved_stiffness(const MeshModel& model, const std::filesystem::path& folder, const RunOptions& options) {
-  const auto solved = solve_contact(model, options);
+  const auto solved =
+      solve_contact(model, options, options.for_study ? fem::Recovery::stresses : fem::Recovery::fields);
   auto result = pack(model, solved);
   result.bodies = body_files(model, solved, folder / "mesh");
   save(result, folder);

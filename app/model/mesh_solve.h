@@ -9,7 +9,8 @@
 namespace annulus::app {
 
 /// Contact: gmsh meshes, elastic bodies, contact of one gear mesh at every position and load.
-[[nodiscard]] fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& options);
+[[nodiscard]] fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& options,
+                                                  fem::Recovery recovery);
 
 /// The same packed, with the files of the bodies, all written into `folder`; nothing is cached.
 [[nodiscard]] MeshResult solved_stiffness(const MeshModel& model, const std::filesystem::path& folder,

@@ -12,6 +12,7 @@
 #include "app/model/reuse.h"
 #include "app/model/system_run.h"
 #include "app/results/user_cache.h"
+#include "app/scene/overrides.h"
 #include "core/errors.h"
 #include "core/files.h"
 
@@ -40,22 +41,27 @@ class TemporaryFolder {
 
 }  // namespace
 
+std::size_t variant_number(const GearSystem& system, const std::string& variant) {
+  const auto names = system.variants();
+  if (variant.empty() && names.size() == 1) return 0;
+  const auto found = std::find(names.begin(), names.end(), variant);
+  if (found == names.end())
+    throw InputError(fmt::format("{}: {} one of its {}s: {}", system.scene().file.string(),
+                                 variant.empty() ? "choose" : "'" + variant + "' is not",
+                                 variant_word(system.scene().stage.kind), fmt::join(names, ", ")));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 dynamics::LumpedCase solved_case(const Scene& scene, const std::string& variant, int threads) {
   if (!scene.dynamics) throw InputError(scene.file.string() + ": has no [dynamics] table; add one for a lumped system");
   check_stage(scene);
   SystemRun run(scene);
-  const auto names = run.system->variants();
-  const auto found =
-      variant.empty() && names.size() == 1 ? names.begin() : std::find(names.begin(), names.end(), variant);
-  if (found == names.end())
-    throw InputError(fmt::format("{}: {} one of its rings: {}", scene.file.string(),
-                                 variant.empty() ? "choose" : "'" + variant + "' is not", fmt::join(names, ", ")));
+  const auto number = variant_number(*run.system, variant);
   const TemporaryFolder folder;
   const RunOptions options =
       with_reuse({.out = folder.path(), .cache = results_cache(folder.path()), .threads = threads});
   run.plan = run.system->plan(threads);
   run.solve_meshes(options);
-  const auto number = static_cast<std::size_t>(found - names.begin());
   return run.system->model(number, run.tables_of(number))->lumped();
 }
 

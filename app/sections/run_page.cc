@@ -166,7 +166,7 @@ Section fields_section(const NamedMeshes& meshes) {
           "on a hub are relative to the hub. A planet on rollers is loaded by its other mesh as well, and "
           "is shown without its motion in the bearing. Grey: outline without load. All pictures have one colour "
           "scale. The " +
-          code("_field.vtu") + " files contain more teeth, for ParaView.") +
+          code("_field.vtm") + " files contain more teeth, for ParaView.") +
       figure;
   return section;
 }

@@ -73,28 +73,44 @@ std::vector<StressCurve> worst_curves(const LoadedMeshProblem& problem, const Me
   return result;
 }
 
-/// Displacement and stress of both bodies where the wheel's root, or without one the pinion's, is stressed most.
-std::vector<BodyField> worst_fields(const LoadedMeshProblem& problem, const MeshBodies& bodies,
-                                    const ContactSystem& system, const std::vector<LoadedPosition>& positions) {
-  const std::size_t worst =
-      worst_position(positions, problem.loads.size(), [](const auto& p) { return p.wheel_stress->root_von_mises; });
-  const auto forces = forces_at(system, positions[worst]);
+/// Where displacement and stress are wanted: where the wheel's root, or without one the pinion's, is stressed most, or
+/// at some phases of the first mesh cycle under the middle load.
+std::vector<std::size_t> wanted_positions(const LoadedMeshProblem& problem, Recovery recovery,
+                                          const std::vector<LoadedPosition>& positions) {
+  const auto loads = problem.loads.size();
+  if (recovery == Recovery::stresses) return {};
+  if (recovery == Recovery::fields)
+    return {worst_position(positions, loads, [](const auto& p) { return p.wheel_stress->root_von_mises; })};
+  constexpr int most = 16;
+  const int stride = (problem.phases + most - 1) / most;
+  std::vector<std::size_t> list;
+  for (int phase = 0; phase < problem.phases; phase += stride)
+    list.push_back(static_cast<std::size_t>(phase) * loads + loads / 2);
+  return list;
+}
+
+std::vector<BodyField> fields_at(const std::vector<std::size_t>& wanted, const LoadedMeshProblem& problem,
+                                 const MeshBodies& bodies, const ContactSystem& system,
+                                 const std::vector<LoadedPosition>& positions) {
+  if (wanted.empty()) return {};
+  const FieldRecovery pinion(bodies.pinion->body(), bodies.pinion_source, problem.materials.pinion, problem.face_width,
+                             bodies.rollers ? &bodies.rollers->row() : nullptr),
+      wheel(bodies.wheel->body(), bodies.wheel_source, problem.materials.wheel, problem.face_width,
+            bodies.supports.get());
   std::vector<BodyField> fields;
-  const auto add = [&](geometry::GearRole gear, const BodySource& source, const CondensedBody& body,
-                       const Material& material, const std::vector<ToothForces>& teeth, const SupportRow* supports,
-                       const Eigen::VectorXd& held, const Eigen::VectorXd& rigid) {
-    const FieldRecovery recovery(body.body(), source, material, problem.face_width, supports);
-    fields.push_back(recovery.field(teeth, held, rigid, problem.pair.internal()));
-    fields.back().body = gear;
-    fields.back().position = worst;
-  };
-  // Without its motion in the bearing, which would hide how it deforms.
-  Eigen::VectorXd pinion_rigid = forces.pinion_rigid;
-  if (pinion_rigid.size() > 0) pinion_rigid.head<2>().setZero();
-  add(geometry::GearRole::pinion, bodies.pinion_source, *bodies.pinion, problem.materials.pinion, forces.pinion,
-      bodies.rollers ? &bodies.rollers->row() : nullptr, forces.rollers, pinion_rigid);
-  add(geometry::GearRole::wheel, bodies.wheel_source, *bodies.wheel, problem.materials.wheel, forces.wheel,
-      bodies.supports.get(), forces.supports, forces.rigid);
+  for (const auto position : wanted) {
+    const auto forces = forces_at(system, positions[position]);
+    // Without its motion in the bearing, which would hide how it deforms.
+    Eigen::VectorXd pinion_rigid = forces.pinion_rigid;
+    if (pinion_rigid.size() > 0) pinion_rigid.head<2>().setZero();
+    const bool mirrored = problem.pair.internal();
+    fields.push_back(pinion.field(forces.pinion, forces.rollers, pinion_rigid, mirrored));
+    fields.back().body = geometry::GearRole::pinion;
+    fields.back().position = position;
+    fields.push_back(wheel.field(forces.wheel, forces.supports, forces.rigid, mirrored));
+    fields.back().body = geometry::GearRole::wheel;
+    fields.back().position = position;
+  }
   return fields;
 }
 
@@ -196,7 +212,8 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
                     result.positions);
     result.stress_curves = worst_curves(problem, bodies, system, result.positions);
     result.gauges = gauge_histories(problem, flanks, result.positions);
-    if (settings.recovery == Recovery::fields) result.fields = worst_fields(problem, bodies, system, result.positions);
+    result.fields = fields_at(wanted_positions(problem, settings.recovery, result.positions), problem, bodies, system,
+                              result.positions);
   }
   result.pinion_sector = std::move(bodies.pinion_sector);
   result.wheel_sector = std::move(bodies.wheel_sector);

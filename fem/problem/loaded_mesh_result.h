@@ -129,7 +129,7 @@ struct SolvedBodies {
   std::vector<double> slice_edges{};  ///< m, z of the slices of the face width
   std::vector<StressCurve> stress_curves{};
   std::vector<GaugeHistory> gauges{};  ///< as in the problem
-  std::vector<BodyField> fields{};     ///< of both bodies, if wanted, where the wheel's root is stressed most
+  std::vector<BodyField> fields{};     ///< of both bodies at one position after the other, as wanted (Recovery)
 };
 
 /// Time of a solve and its tooth superelements.

@@ -17,6 +17,7 @@
 #include "core/files.h"
 #include "gears.h"
 #include "geometry/sector_mesh.h"
+#include "geometry/vtu_file.h"
 
 namespace annulus::geometry::test {
 

@@ -11,7 +11,7 @@
 #include "app/report/plot/colour_scale.h"
 #include "app/report/plot/ticks.h"
 #include "core/units.h"
-#include "geometry/gear_places.h"
+#include "fem/recovery/placed_field.h"
 
 namespace annulus::app {
 
@@ -64,25 +64,6 @@ std::vector<std::array<std::uint32_t, 4>> faces_around(const fem::BodyField& fie
   const std::size_t each_side = std::max<std::size_t>(1, most_faces / faces_of(mesh, middle * cells, cells).size() / 2);
   const std::size_t first = middle - std::min(middle, each_side), last = std::min(middle + each_side, sectors - 1);
   return faces_of(mesh, first * cells, (last - first + 1) * cells);
-}
-
-/// Angles of both bodies' tooth 0 from the line of centres, and how the pinion's displacement closes the mesh, in the
-/// frame of geometry::pair_places.
-struct MeshPlaces {
-  double pinion = 0, wheel = 0;  ///< rad
-  double pinion_rotation = 0;    ///< rad, under the load
-};
-MeshPlaces mesh_places(const geometry::GearPair& pair, const fem::LoadedPosition& position) {
-  MeshPlaces places;
-  // The pitch point lies on the line of centres.
-  places.wheel = -position.ring_angle;
-  // With its leading flank a driver turns counter-clockwise; the pinion drives a ring with its trailing flank.
-  const bool counter_clockwise = !pair.internal() && pair.driver() == geometry::GearRole::pinion;
-  places.pinion = geometry::pair_places(pair).pinion +
-                  (counter_clockwise ? 1 : -1) * position.mesh_phase * pair.pinion().pitch_angle();
-  const double deflection = position.entry.lte - position.entry.unloaded_te;
-  places.pinion_rotation = (pair.internal() ? -1 : 1) * deflection / pair.pinion().base_radius();
-  return places;
 }
 
 /// Page axes: the line of centres upright; of solids from a little before their lower faces.
@@ -144,11 +125,10 @@ DeformedMesh deformed_mesh(const fem::BodyField& pinion, const fem::BodyField& w
                     .mesh_phase = position.mesh_phase,
                     .ring_tooth = position.ring_tooth};
   if (pinion.mesh.cells.empty() || wheel.mesh.cells.empty()) return view;
-  const auto places = mesh_places(pair, position);
   const Eigen::Matrix3d axes = page_axes(wheel.mesh.dimension);
   Eigen::AlignedBox3d box;
-  const auto add = [&](const fem::BodyField& field, double angle, double centre, double rotation) {
-    const Eigen::Matrix3d turned = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const auto add = [&](const fem::BodyField& field) {
+    const auto placed = fem::in_frame_of_pair(field, position, pair);
     std::map<std::uint32_t, std::uint32_t> numbers;
     const auto before = static_cast<std::uint32_t>(view.stress_MPa.size());
     for (const auto& face : faces_around(field, most_stressed(field)))
@@ -156,9 +136,7 @@ DeformedMesh deformed_mesh(const fem::BodyField& pinion, const fem::BodyField& w
         const auto [number, fresh] = numbers.try_emplace(v, before + static_cast<std::uint32_t>(numbers.size()));
         view.faces.push_back(number->second);
         if (!fresh) continue;
-        const Eigen::Vector3d own = turned * field.mesh.vertices[v], place = own + centre * Eigen::Vector3d::UnitX();
-        const Eigen::Vector3d moved =
-            axes * (turned * field.displacement[v] + rotation * Eigen::Vector3d::UnitZ().cross(own)) / units::mm;
+        const Eigen::Vector3d &place = placed.mesh.vertices[v], moved = axes * placed.displacement[v] / units::mm;
         add_place(view.place_mm, axes * place / units::mm);
         for (const double x : moved) view.displacement_mm.push_back(significant(x, 4));
         view.stress_MPa.push_back(significant(field.von_mises(v) / MPa, 4));
@@ -167,8 +145,8 @@ DeformedMesh deformed_mesh(const fem::BodyField& pinion, const fem::BodyField& w
         box.extend(place / units::mm);
       }
   };
-  add(wheel, places.wheel, 0, 0);
-  add(pinion, places.pinion, pair.centre_distance(), places.pinion_rotation);
+  add(wheel);
+  add(pinion);
   // About a fiftieth of the bodies.
   view.exaggeration = round_below(0.02 * box.sizes().maxCoeff() / std::max(view.largest_displacement_mm, 1e-12));
   view.top_MPa = colour_top(view.stress_MPa);
