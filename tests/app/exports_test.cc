@@ -368,6 +368,19 @@ BOOST_AUTO_TEST_CASE(colours_are_for_terminals) {
   BOOST_TEST(read_with("env NO_COLOR=1 TERM=xterm " + command, folder.path()).find('\x1b') == std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(vtk_reads_the_bodies_of_a_mesh_cycle) {
+  const test::TemporaryFolder folder("exports_fields");
+  write_file(folder.path() / "scene.toml", "accuracy = 0.03\nmodel = \"plane\"\n" + test::small_stage());
+  export_to(folder.path(), "scene.toml --to paraview -o cycle.pvd");
+  const auto read = read_with("'" ANNULUS_PYTHON "' '" ANNULUS_SOURCE_DIR
+                              "/tests/app/read_fields.py' cycle.pvd sun_planet=planet,sun ring_planet=planet,ring",
+                              folder.path());
+  BOOST_TEST(read == "16 2\n");
+  write_file(folder.path() / "prescribed.toml", test::quick_scene());
+  BOOST_TEST(refusal(folder.path(), "export prescribed.toml --to paraview").find("no mesh of this scene has fields") !=
+             std::string::npos);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace annulus

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <utility>
 
 #include "app/model/plan_studies.h"
@@ -125,6 +126,30 @@ FigureSet values(const StaticResults& results, const StaticTurn& turn) {
   return set;
 }
 
+std::vector<double> by_place(const StaticResult& result, const std::vector<StaticTurn>& places) {
+  std::vector<double> list;
+  for (const auto& place : places) list.push_back(result.largest(place));
+  return list;
+}
+std::size_t largest_of(const std::vector<double>& list) {
+  return static_cast<std::size_t>(std::max_element(list.begin(), list.end()) - list.begin());
+}
+
+/// The places at which a result is largest: a small change of the stage changes it there.
+StaticTurn decisive_places(const StaticResults& results, const StaticTurn& turn,
+                           const std::vector<StaticTurn>& places) {
+  std::set<std::size_t> decisive;
+  for (const auto& result : results) decisive.insert(largest_of(by_place(result, places)));
+  StaticTurn part = turn;
+  part.positions.clear();
+  part.schedule.cycles.clear();
+  for (const auto place : decisive) {
+    part.schedule.cycles.push_back(turn.schedule.cycles[place]);
+    part.positions.insert(part.positions.end(), places[place].positions.begin(), places[place].positions.end());
+  }
+  return part;
+}
+
 /// The results of a stage, whose errors add up what other turns make of them.
 struct StaticErrors {
   const StaticResults& results;
@@ -148,9 +173,8 @@ struct StaticErrors {
     const std::size_t count = places.size();
     if (count < 3) return;
     for (const auto& result : results) {
-      std::vector<double> list;
-      for (const auto& place : places) list.push_back(result.largest(place));
-      const auto at = static_cast<std::size_t>(std::max_element(list.begin(), list.end()) - list.begin());
+      const auto list = by_place(result, places);
+      const auto at = largest_of(list);
       add(result.key, &ErrorParts::interpolation,
           std::abs(list[(at + count - 1) % count] - 2 * list[at] + list[(at + 1) % count]) / 8);
     }
@@ -278,9 +302,9 @@ struct RingProblem {
   const std::shared_ptr<const fem::SolidFace>&sun_face, &ring_face;
 };
 
-/// The results with the errors that the tables of meshes without solid faces bring.
+/// The results with the errors that the tables of meshes without solid faces bring. `decisive`: see above.
 FigureSet with_errors_of_tables(const RingProblem& of, const StageFaces& faces, const StaticResults& results,
-                                const FigureSet& nominal, const std::function<StaticTurn(const SpatialStage&)>& solve) {
+                                const StaticTurn& decisive, int threads) {
   std::vector<const MeshResult*> tables;
   if (!faces.sun) tables.push_back(&of.sun_mesh);
   if (!faces.ring) tables.push_back(&of.ring_mesh);
@@ -288,9 +312,10 @@ FigureSet with_errors_of_tables(const RingProblem& of, const StageFaces& faces, 
     const auto& sun = faces.sun ? of.sun_mesh : *changed.front();
     const auto& ring = faces.ring ? of.ring_mesh : *changed.back();
     const auto stage = make_spatial_stage(of.scene, of.geometry, of.ring, sun, ring, faces);
-    return dynamics::Evaluation{values(results, solve(stage)), {}};
+    return dynamics::Evaluation{values(results, dynamics::solve_turn(stage, decisive.schedule, threads, &decisive)),
+                                {}};
   };
-  return with_table_errors({nominal, {}}, tables, evaluate,
+  return with_table_errors({values(results, decisive), {}}, tables, evaluate,
                            {.simulation = {}, .seeks_steady_state = false, .nominal_alike = true});
 }
 
@@ -308,12 +333,14 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
     return dynamics::solve_turn(changed, schedule, options.threads, &result.turn);
   };
   const auto results = results_of(result.turn);
-  StaticErrors errors{results, with_errors_of_tables(of, faces, results, values(results, result.turn), solve)};
+  const auto places = one_by_one(result.turn);
+  StaticErrors errors{results, with_errors_of_tables(of, faces, results, decisive_places(results, result.turn, places),
+                                                     options.threads)};
   // What lies between the positions of a smooth course falls with the square of their distance: half of them leave four
   // times as much. The other half has the largest value where one does not. Several periods at once are met by chance.
   constexpr double of_half = 1.0 / 3;
   const bool one_period = stage.plane.error_period() == 1;
-  if (one_period) errors.add_between(one_by_one(result.turn));
+  if (one_period) errors.add_between(places);
   for (const std::size_t from : {0u, 1u}) {
     if (schedule.cycles.size() > 1)
       errors.add_difference(every_second(result.turn, true, from), &ErrorParts::interpolation,
