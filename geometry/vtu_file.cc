@@ -88,8 +88,9 @@ void write_vtu(const Mesh& mesh, const std::filesystem::path& file, const std::v
   if (!facts.empty()) {
     text += "<FieldData>\n";
     for (const auto& [name, value] : facts)
-      text += fmt::format("<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n",
-                          name, value);
+      text += fmt::format(
+          "<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n", name,
+          value);
     text += "</FieldData>\n";
   }
   text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.vertices.size(), mesh.cells.size());

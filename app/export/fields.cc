@@ -37,9 +37,10 @@ std::vector<std::filesystem::path> write_mesh_cycle(const Scene& scene, const st
     }
   }
   if (steps.empty())
-    throw InputError(fmt::format("{}: no mesh of this scene has fields inside its bodies: none is computed with model "
-                                 "\"plane\" or \"solid\"",
-                                 scene.file.string()));
+    throw InputError(
+        fmt::format("{}: no mesh of this scene has fields inside its bodies: none is computed with model "
+                    "\"plane\" or \"solid\"",
+                    scene.file.string()));
   std::stable_sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   write_pvd(file, steps);
   return {file};

@@ -7,7 +7,7 @@
 
 #include "app/report/plot/ticks.h"
 #include "app/results/vtk_assembly.h"
-#include "fem/recovery/placed_field.h"
+#include "fem/placed_field.h"
 #include "geometry/vtu_file.h"
 
 namespace annulus::app {

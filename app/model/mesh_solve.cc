@@ -24,8 +24,8 @@ std::string result_id(const MeshModel& model, const RunOptions& options) {
   return identity_of(model.id(), model.mesh, model.variant, options.for_study);
 }
 
-/// The .msh and .vtu files of both bodies and of their fields, written into `folder`; nothing for those that the solution
-/// does not have.
+/// The .msh and .vtu files of both bodies and of their fields, written into `folder`; nothing for those that the
+/// solution does not have.
 FileSet body_files(const MeshModel& model, const fem::LoadedMeshResult& solved, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   std::vector<std::string> names;

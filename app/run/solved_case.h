@@ -10,8 +10,8 @@ namespace annulus::app {
 
 class GearSystem;
 
-/// Where a variant stands in GearSystem::variants(). An empty name is the only one. Throws InputError for a name that is
-/// not there, and for none of several.
+/// Where a variant stands in GearSystem::variants(). An empty name is the only one. Throws InputError for a name that
+/// is not there, and for none of several.
 [[nodiscard]] std::size_t variant_number(const GearSystem& system, const std::string& variant);
 
 /// The lumped system of a variant (a ring of a planetary stage; empty where there is one) at its operating point.

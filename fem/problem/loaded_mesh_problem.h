@@ -74,8 +74,8 @@ enum class Fidelity { closed_form, plane, solid, resolved_plane, resolved_solid 
   return (is_solid(fidelity) ? 0 : plane_error(problem)) + chamfer_error(problem);
 }
 
-/// What condensed models recover inside the bodies, in a result with a table: its stresses, or its fields as well, where
-/// the wheel's root is stressed most or over a mesh cycle.
+/// What condensed models recover inside the bodies, in a result with a table: its stresses, or its fields as well,
+/// where the wheel's root is stressed most or over a mesh cycle.
 enum class Recovery { stresses, fields, fields_of_cycle };
 
 struct LoadedMeshSettings {

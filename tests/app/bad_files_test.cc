@@ -274,7 +274,7 @@ BOOST_AUTO_TEST_CASE(references_that_are_none) {
   const test::TemporaryFolder folder("bad_reference");
   const auto scene = folder.path() / "scene.toml", file = folder.path() / "ref.toml";
   const auto text = "reference = \"ref.toml\"\n" + test::quick_scene();
-  const std::string order = "source = \"s\"\n[[order]]\nquantity = \"q\"\nrings = [\"held\"]\nstatement = \"s\"\n";
+  const std::string order = "source = \"s\"\n[[order]]\nquantity = \"q\"\nvariants = [\"held\"]\nstatement = \"s\"\n";
   write_file(file, order);
   BOOST_TEST(refusal(text, scene) == "");
   for (const auto& bad :
@@ -294,7 +294,7 @@ BOOST_AUTO_TEST_CASE(references_that_are_none) {
         order + "margin = \"a\"",
         order + "margin = -1",
         order + "margins = 1",
-        std::string("source = \"s\"\n[[order]]\nquantity = \"q\"\nrings = [1]\nstatement = \"s\""),
+        std::string("source = \"s\"\n[[order]]\nquantity = \"q\"\nvariants = [1]\nstatement = \"s\""),
         std::string("source = \"s\"\n[[value]]\nquantity = \"q\"\nvalue = inf\nstatement = \"s\""),
         std::string("source = \"s\"\n[[value]]\nquantity = \"q\"\nvalue = 1\nwithin = -1\nstatement = \"s\""),
         "source = \"s\"\na" + times(190'000, ".a") + " = 1",

@@ -11,7 +11,7 @@
 #include "app/report/plot/colour_scale.h"
 #include "app/report/plot/ticks.h"
 #include "core/units.h"
-#include "fem/recovery/placed_field.h"
+#include "fem/placed_field.h"
 
 namespace annulus::app {
 

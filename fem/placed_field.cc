@@ -1,4 +1,4 @@
-#include "fem/recovery/placed_field.h"
+#include "fem/placed_field.h"
 
 #include <Eigen/Geometry>
 
