@@ -359,7 +359,8 @@ void explain_command(const Arguments& arguments) {
 void export_command(const Arguments& arguments) {
   refuse_altered_result(arguments.scene);
   for (const auto& file :
-       export_file(arguments.scene, arguments.format, arguments.out, arguments.ring, arguments.threads))
+       export_file(arguments.scene, arguments.format, arguments.out,
+                   {.variant = arguments.ring, .threads = arguments.threads, .base_id = arguments.base_id}))
     fmt::print("written {}\n", file.string());
 }
 

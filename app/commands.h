@@ -16,6 +16,7 @@ struct Arguments {
   bool inputs = false, minimal = false, json = false, strict = false, markdown = false, definitions = false,
        json_schema = false, clear = false, quiet = false, verbose = false;
   int threads = 1, shards = 8;
+  std::optional<int> base_id;  ///< of numbered statements
 };
 
 /// The commands, each from checking its arguments to its last line of output. They throw what the stages throw.

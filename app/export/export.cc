@@ -71,14 +71,15 @@ Csv stiffness_csv(const Csv& compliance) {
   return csv;
 }
 
-void export_table(const std::filesystem::path& source, const ExportFormat& format, const std::filesystem::path& file) {
+void export_table(const std::filesystem::path& source, const ExportFormat& format, const std::filesystem::path& file,
+                  const ExportOptions& options) {
   const Csv csv = Csv::read(source);
   const bool plain = std::string(format.name) == "csv";
   if (has_column(csv, "stiffness_secant_N_per_m") && has_column(csv, "mesh_phase")) {
     const auto table = StiffnessTable::read_csv(source);
     if (plain) return write_plain_csv(file, csv);
     return format.write_arrays ? format.write_arrays(file, arrays_of(table))
-                               : write_file(file, format.table_text(table));
+                               : write_file(file, format.table_text(table, options));
   }
   if (!plain && !format.write_arrays)
     throw InputError(fmt::format(
@@ -92,6 +93,15 @@ void export_table(const std::filesystem::path& source, const ExportFormat& forma
     if (!matrix) throw;
     throw InputError(source.string() + ": " + error.what());
   }
+}
+
+template <std::string (*text)(const StiffnessTable& table)>
+std::string as_text(const StiffnessTable& table, const ExportOptions& /*options*/) {
+  return text(table);
+}
+
+std::string adams_statements(const StiffnessTable& table, const ExportOptions& options) {
+  return adams_text(table, options.base_id.value_or(1));
 }
 
 std::vector<std::filesystem::path> write_rexs(const Scene& scene, const SceneExport& wanted) {
@@ -128,9 +138,9 @@ const std::vector<ExportFormat>& export_formats() {
       {"csv", ".plain.csv", "columns alone, for spreadsheets"},
       {"hdf5", ".h5", "HDF5 with named axes and units", nullptr, write_hdf5, write_matrices<write_hdf5>},
       {"matlab", ".mat", "MATLAB, Octave, SciPy", nullptr, write_matlab, write_matrices<write_matlab>},
-      {"modelica", ".txt", "CombiTable1D and CombiTable2D of the Modelica Standard Library", modelica_text},
-      {"simpack", ".afs", "input functions of Simpack", simpack_text},
-      {"adams", ".adm", "SPLINE statements of Adams", adams_text},
+      {"modelica", ".txt", "CombiTable1D and CombiTable2D of the Modelica Standard Library", as_text<modelica_text>},
+      {"simpack", ".afs", "input functions of Simpack", as_text<simpack_text>},
+      {"adams", ".adm", "SPLINE statements of Adams", adams_statements, nullptr, nullptr, true},
       {"rexs", ".rexs", "gear data of a scene as REXS 1.4 (XML)", nullptr, nullptr, write_rexs},
       {"mtx", ".mtx", "matrices of a scene, Matrix Market", nullptr, nullptr, write_matrices_apart},
       {"paraview", ".pvd", "deformed bodies of a scene over a mesh cycle", nullptr, nullptr, write_fields},
@@ -139,8 +149,7 @@ const std::vector<ExportFormat>& export_formats() {
 }
 
 std::vector<std::filesystem::path> export_file(const std::filesystem::path& source, const std::string& format,
-                                               const std::filesystem::path& out, const std::string& variant,
-                                               int threads) {
+                                               const std::filesystem::path& out, const ExportOptions& options) {
   const auto& formats = export_formats();
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == format; });
   if (found == formats.end()) {
@@ -151,6 +160,8 @@ std::vector<std::filesystem::path> export_file(const std::filesystem::path& sour
     throw InputError(fmt::format("--to {}: there is no such format{}; the formats are {}", format,
                                  near.empty() ? "" : ", did you mean " + near + "?", fmt::join(names, ", ")));
   }
+  if (options.base_id && !found->numbered)
+    throw InputError(fmt::format("--base-id {}: {} has no numbered statements", *options.base_id, format));
   const bool is_scene = source.extension() == ".toml", is_picture = source.extension() == ".svg";
   if (is_picture != (format == "png"))
     throw InputError(
@@ -171,13 +182,14 @@ std::vector<std::filesystem::path> export_file(const std::filesystem::path& sour
   if (is_scene) {
     const Scene scene = read_scene(source);
     const auto variants = variant_names(scene);
-    const bool one = variant.empty() && variants.size() == 1;
-    return found->write_scene(scene, {.variant = one ? variants.front() : variant, .threads = threads, .file = file});
+    SceneExport wanted{options, file};
+    if (wanted.variant.empty() && variants.size() == 1) wanted.variant = variants.front();
+    return found->write_scene(scene, wanted);
   }
   if (is_picture)
     write_png(source, file);
   else
-    export_table(source, *found, file);
+    export_table(source, *found, file, options);
   return {file};
 }
 

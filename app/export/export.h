@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,24 +11,28 @@
 /// `annulus export`: results and gear data in the formats of other programs.
 namespace annulus::app {
 
-/// What an export of a scene needs beside the scene.
-struct SceneExport {
-  std::string variant;  ///< of a scene with several
+/// What an export needs beside its source.
+struct ExportOptions {
+  std::string variant{};  ///< of a scene with several
   int threads = 1;
+  std::optional<int> base_id{};  ///< of the first numbered statement; absent: 1
+};
+struct SceneExport : ExportOptions {
   std::filesystem::path file;
 };
 
 struct ExportFormat {
   const char *name, *ending, *what;
-  std::string (*table_text)(const StiffnessTable& table) = nullptr;  ///< takes stiffness tables and nothing else
+  /// Takes stiffness tables and nothing else.
+  std::string (*table_text)(const StiffnessTable& table, const ExportOptions& options) = nullptr;
   void (*write_arrays)(const std::filesystem::path& file, const NamedArrays& arrays) = nullptr;  ///< takes any table
   /// Takes scenes; returns the files.
   std::vector<std::filesystem::path> (*write_scene)(const Scene& scene, const SceneExport& wanted) = nullptr;
+  bool numbered = false;  ///< has statements with numbers, which ExportOptions::base_id begins
 };
 [[nodiscard]] const std::vector<ExportFormat>& export_formats();
 
-/// Writes `source` in `format`; `out` empty: beside the source, with the format's ending; `variant` chooses one of a
-/// scene with several. Returns what was written.
+/// Writes `source` in `format`; `out` empty: beside the source, with the format's ending. Returns what was written.
 ///
 ///     stiffness_<mesh>.csv       all formats but rexs, mtx, paraview and png
 ///     ring_compliance.csv        csv, hdf5, matlab: the compliance and the stiffness matrix of the ring
@@ -39,7 +44,7 @@ struct ExportFormat {
 [[nodiscard]] std::vector<std::filesystem::path> export_file(const std::filesystem::path& source,
                                                              const std::string& format,
                                                              const std::filesystem::path& out,
-                                                             const std::string& variant, int threads);
+                                                             const ExportOptions& options);
 
 /// A picture in pixels. Throws InputError naming the file.
 void write_png(const std::filesystem::path& svg, const std::filesystem::path& png);

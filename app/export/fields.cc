@@ -18,6 +18,8 @@ namespace annulus::app {
 
 std::vector<std::filesystem::path> write_mesh_cycle(const Scene& scene, const std::string& variant, int threads,
                                                     const std::filesystem::path& file) {
+  if (file.extension() != ".pvd")
+    throw InputError(fmt::format("-o {}: must end with .pvd, by which ParaView knows it", file.string()));
   check_stage(scene);
   const auto system = make_system(scene);
   const auto chosen = system->variants().at(variant_number(*system, variant));

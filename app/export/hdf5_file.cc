@@ -36,6 +36,7 @@ void write_arrays(const std::filesystem::path& file, const NamedArrays& all) {
   const Handle out(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
   for (const auto& [key, value] : all.provenance)
     check(H5LTset_attribute_string(out.id(), "/", key.c_str(), value.c_str()));
+  if (!all.scene.empty()) check(H5LTmake_dataset_string(out.id(), "scene", all.scene.c_str()));
   std::set<std::string> axes;
   for (const auto& array : all.arrays) axes.insert(array.axes.begin(), array.axes.end());
   for (const auto& array : all.arrays) {
@@ -43,7 +44,7 @@ void write_arrays(const std::filesystem::path& file, const NamedArrays& all) {
     check(H5LTmake_dataset_double(out.id(), array.name.c_str(), static_cast<int>(shape.size()), shape.data(),
                                   array.values.data()));
     if (const auto unit = unit_of_name(array.name); !unit.empty())
-      check(H5LTset_attribute_string(out.id(), array.name.c_str(), "unit", unit.c_str()));
+      check(H5LTset_attribute_string(out.id(), array.name.c_str(), "units", unit.c_str()));
     if (axes.count(array.name) == 0) continue;
     const Handle scale(H5Dopen2(out.id(), array.name.c_str(), H5P_DEFAULT), H5Dclose);
     check(H5DSset_scale(scale.id(), array.name.c_str()));
@@ -54,6 +55,7 @@ void write_arrays(const std::filesystem::path& file, const NamedArrays& all) {
     for (std::size_t i = 0; i < array.axes.size(); ++i) {
       const Handle scale(H5Dopen2(out.id(), array.axes[i].c_str(), H5P_DEFAULT), H5Dclose);
       check(H5DSattach_scale(data.id(), scale.id(), static_cast<unsigned>(i)));
+      check(H5DSset_label(data.id(), static_cast<unsigned>(i), array.axes[i].c_str()));
     }
   }
 }

@@ -42,7 +42,8 @@ NamedArrays lumped_matrices(const Scene& scene, const std::string& variant, int 
            array_of("G_N_s_per_m", linear.gyroscopic), array_of("K_N_per_m", linear.stiffness),
            array_of("K_rotation_N_per_m", linear.rotating_stiffness), array_of("B", linear.mesh_vectors),
            array_of("K_mesh_N_per_m", linear.mesh_stiffness), array_of("c_mesh_N_s_per_m", linear.mesh_damping),
-           array_of("load_N", linear.load)}};
+           array_of("load_N", linear.load)},
+          scene_text(scene, {})};
 }
 
 std::vector<std::filesystem::path> write_matrix_market(const std::filesystem::path& file, const NamedArrays& arrays) {

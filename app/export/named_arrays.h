@@ -22,6 +22,7 @@ struct NamedArray {
 struct NamedArrays {
   std::vector<std::pair<std::string, std::string>> provenance{};
   std::vector<NamedArray> arrays{};
+  std::string scene{};  ///< text of the scene file that they belong to; empty: not known
 };
 
 /// A quantity of a stiffness table as other programs take it.
@@ -45,8 +46,8 @@ inline constexpr std::array<TableColumn, 4> table_columns = {
 [[nodiscard]] NamedArrays arrays_of(const Csv& csv);
 
 /// Files of arrays. Each appears whole or not at all; both throw InputError naming the file.
-/// HDF5: a dataset per array with its `unit`, dimensions named and attached to their axes (dimension scales); what is
-/// known of the origin as attributes of the file.
+/// HDF5: a dataset per array with its `units`, dimensions labelled and attached to their axes (dimension scales); what
+/// is known of the origin as attributes of the file, and the scene as a text `scene`.
 void write_hdf5(const std::filesystem::path& file, const NamedArrays& arrays);
 /// MATLAB, version 5 (what MATLAB, Octave and SciPy read): a variable per array, indexed in the order of its axes, and
 /// a struct `provenance`.

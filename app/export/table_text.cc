@@ -98,7 +98,7 @@ std::string modelica_text(const StiffnessTable& table) {
   return text;
 }
 
-std::string adams_text(const StiffnessTable& table) {
+std::string adams_text(const StiffnessTable& table, int base_id) {
   const Cycles cycles(table);
   // Units are those of the dataset, which has to say UNITS/ ... LENGTH=METER, FORCE=NEWTON.
   std::string text = provenance_lines(table, "!") + fmt::format(
@@ -106,9 +106,9 @@ std::string adams_text(const StiffnessTable& table) {
                                                         "! Extrapolate by the period: mod(cycles, {}).\n",
                                                         table.positions());
   const bool one_load = table.loads().size() == 1;
-  int id = 0;
+  int id = base_id;
   for (const auto& c : table_columns) {
-    Statement statement(fmt::format("SPLINE/{}", ++id));
+    Statement statement(fmt::format("SPLINE/{}", id++));
     statement.add("X=", cycles.passed);
     for (std::size_t l = 0; l < table.loads().size(); ++l) {
       if (!one_load) statement.add("Y=", {table.loads()[l]});

@@ -13,8 +13,9 @@ namespace annulus::app {
 /// mesh_cycles x load_N, and `curves_<i>` with all quantities over mesh_cycles at the i-th load.
 [[nodiscard]] std::string modelica_text(const StiffnessTable& table);
 
-/// Statements SPLINE/1 ... SPLINE/4 of an Adams dataset (Adams Solver), for CUBSPL or AKISPL: x mesh_cycles, z load_N.
-[[nodiscard]] std::string adams_text(const StiffnessTable& table);
+/// Four statements of an Adams dataset (Adams Solver), SPLINE/`base_id` and those that follow, for CUBSPL or AKISPL: x
+/// mesh_cycles, z load_N.
+[[nodiscard]] std::string adams_text(const StiffnessTable& table, int base_id);
 
 /// A set of input functions z(x, y) of Simpack: x mesh_cycles, y load_N. Its layout follows a published header; Simpack
 /// itself has not read it.

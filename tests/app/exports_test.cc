@@ -91,6 +91,12 @@ BOOST_AUTO_TEST_CASE(every_format_of_a_table_is_read_back_by_others) {
                   folder.path());
     BOOST_TEST(octave == fmt::format("{}\n", 7 * rows));
   }
+  export_to(folder.path(), "stiffness.csv --to adams --base-id 101 -o numbered.adm");
+  const auto numbered = read_file(folder.path() / "numbered.adm");
+  for (const auto* id : {"SPLINE/101,", "SPLINE/102,", "SPLINE/103,", "SPLINE/104,"})
+    BOOST_TEST(numbered.find(id) != std::string::npos, id);
+  BOOST_TEST(refusal(folder.path(), "export stiffness.csv --to simpack --base-id 5").find("no numbered statements") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(the_ring_matrix_is_inverted) {
@@ -376,6 +382,8 @@ BOOST_AUTO_TEST_CASE(vtk_reads_the_bodies_of_a_mesh_cycle) {
                               "/tests/app/read_fields.py' cycle.pvd sun_planet=planet,sun ring_planet=planet,ring",
                               folder.path());
   BOOST_TEST(read == "16 2\n");
+  BOOST_TEST(refusal(folder.path(), "export scene.toml --to paraview -o cycle").find("must end with .pvd") !=
+             std::string::npos);
   write_file(folder.path() / "prescribed.toml", test::quick_scene());
   BOOST_TEST(refusal(folder.path(), "export prescribed.toml --to paraview").find("no mesh of this scene has fields") !=
              std::string::npos);

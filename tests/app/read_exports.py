@@ -56,7 +56,8 @@ def check_hdf5(table, path):
             count += same(file[q], table.values[q], 15, q)
             axes = [dimension[0].name for dimension in file[q].dims]
             assert axes == ["/ring_angle_deg", "/mesh_phase", "/load_N"], axes
-        assert file["stiffness_secant_N_per_m"].attrs["unit"].decode() == "N/m"
+        assert file["stiffness_secant_N_per_m"].attrs["units"].decode() == "N/m"
+        assert [d.label for d in file["stiffness_secant_N_per_m"].dims] == ["ring_angle_deg", "mesh_phase", "load_N"]
         assert file.attrs["mesh"].decode() == "ring_planet"
     return count
 

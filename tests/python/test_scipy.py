@@ -113,10 +113,13 @@ class Motion(unittest.TestCase):
                 market = scipy.io.mmread(self.folder / f"scene_{name}.mtx")
                 for found in [market, matlab[name], hdf5[name][()]]:
                     self.assertTrue(numpy.array_equal(numpy.squeeze(found), matrix.to_numpy()), name)
-            self.assertEqual(hdf5["K_N_per_m"].attrs["unit"].decode(), "N/m")
-            self.assertEqual(hdf5["C_N_s_per_m"].attrs["unit"].decode(), "N s/m")
+            self.assertEqual(hdf5["K_N_per_m"].attrs["units"].decode(), "N/m")
+            self.assertEqual(hdf5["C_N_s_per_m"].attrs["units"].decode(), "N s/m")
             self.assertEqual(hdf5.attrs["coordinates"].decode().split(), system.dofs)
             self.assertIn("carrier", hdf5.attrs["frame"].decode())
+            again = self.folder / "again.toml"
+            again.write_text(hdf5["scene"][()].decode())
+        self.assertTrue(annulus.lumped(annulus.Scene.load(again)).K.equals(system.K))
         self.assertEqual(str(matlab["provenance"]["meshes"][0, 0][0]).split(), system.meshes)
         self.assertIn("% coordinates: sun_x", (self.folder / "scene_M_kg.mtx").read_text())
         rings = annulus.Scene.new("ring_types")
