@@ -231,7 +231,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   send->add_option("-o,--out", arguments.out, "File to write; default beside the source, with the format's ending");
   send->add_option("--ring", arguments.ring, "Ring of the scene, if it has several");
   send->add_option("--base-id", arguments.base_id, "Number of the first statement (adams); default 1")
-      ->check(CLI::Range(1, 99'999'990));
+      ->check(CLI::PositiveNumber);
   add_common(*send, arguments);
   std::string what;
   for (const auto& f : export_formats()) what += fmt::format("  {:9} {:11} {}\n", f.name, f.ending, f.what);

@@ -1,6 +1,7 @@
 #include "fem/placed_field.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "geometry/gear_places.h"
 
@@ -39,6 +40,11 @@ BodyField in_frame_of_pair(const BodyField& field, const LoadedPosition& positio
     placed.stress[v] = {tensor(0, 0), tensor(1, 1), tensor(2, 2), tensor(0, 1), tensor(1, 2), tensor(2, 0)};
   }
   return placed;
+}
+
+double visible_exaggeration(double size, double largest_displacement) {
+  constexpr double share = 0.02, least = 1e-12;  // of the size: without load nothing is moved
+  return share * size / std::max(largest_displacement, least * size);
 }
 
 }  // namespace annulus::fem

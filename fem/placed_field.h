@@ -12,4 +12,7 @@ namespace annulus::fem {
 [[nodiscard]] BodyField in_frame_of_pair(const BodyField& field, const LoadedPosition& position,
                                          const geometry::GearPair& pair);
 
+/// By what to multiply displacements for the eye: the largest is then a fiftieth of the bodies. Both in one unit.
+[[nodiscard]] double visible_exaggeration(double size, double largest_displacement);
+
 }  // namespace annulus::fem

@@ -30,13 +30,14 @@ std::vector<std::filesystem::path> write_mesh_cycle(const Scene& scene, const st
   for (const auto& model : system->meshes()) {
     if (!model.has_elements() || (!model.variant.empty() && model.variant != chosen)) continue;
     const auto solved = solve_contact(model, options, fem::Recovery::fields_of_cycle);
+    std::vector<std::string> stems;
     for (std::size_t first = 0; first < solved.fields.size(); first += 2) {
-      const auto stem = fmt::format("{}_{:02}", model.mesh, first / 2);
-      std::filesystem::create_directories(folder);
-      write_field_files(model, solved, first, folder, stem);
+      stems.push_back(fmt::format("{}_{:02}", model.mesh, stems.size()));
       steps.emplace_back(solved.positions.at(solved.fields[first].position).mesh_phase,
-                         std::filesystem::path(name) / field_file_names(model, stem).back());
+                         std::filesystem::path(name) / field_file_names(model, stems.back()).back());
     }
+    std::filesystem::create_directories(folder);
+    write_field_files(model, solved, folder, stems);
   }
   if (steps.empty())
     throw InputError(

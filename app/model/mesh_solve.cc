@@ -44,7 +44,7 @@ FileSet body_files(const MeshModel& model, const fem::LoadedMeshResult& solved, 
   }
   const auto fields = model.mesh + "_field";
   for (const auto& name : field_file_names(model, fields)) (void)file(name);
-  if (!solved.fields.empty()) write_field_files(model, solved, 0, folder, fields);
+  if (!solved.fields.empty()) write_field_files(model, solved, folder, {fields});
   return read_files(folder, names);
 }
 

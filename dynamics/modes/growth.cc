@@ -29,7 +29,7 @@ Growth fastest_growth(const LumpedSystem& system) {
   state.bottomRightCorner(n, n) = -mass.solve(linear.damping + linear.gyroscopic);
   const auto pairs = eigenpairs(state);
   if (!pairs) {
-    log::warn(fmt::format("whether small motions grow is not known: no eigenvalues of {} degrees of freedom", n));
+    log::warn(fmt::format("whether small motions grow is not known: the eigenvalues of {} DOF were not found", n));
     return {};
   }
   Eigen::Index fastest = 0, largest = 0;
@@ -47,8 +47,7 @@ void refuse_growth(const LumpedSystem& system, double mesh_frequency) {
   throw InputError(fmt::format(
       "unstable at this speed: small motions grow e-fold within {:.3g} s{}, most of all {}. A body is held more softly "
       "than its centrifugal or gyroscopic forces or damping that turns require. Use stiffer bearings or supports, "
-      "fewer "
-      "floating bodies, or a lower speed",
+      "fewer floating bodies, or a lower speed",
       1 / growth.rate, growth.frequency > 0 ? fmt::format(", at {:.4g} Hz", growth.frequency) : " without oscillation",
       growth.dof));
 }

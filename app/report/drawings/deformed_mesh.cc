@@ -136,7 +136,8 @@ DeformedMesh deformed_mesh(const fem::BodyField& pinion, const fem::BodyField& w
         const auto [number, fresh] = numbers.try_emplace(v, before + static_cast<std::uint32_t>(numbers.size()));
         view.faces.push_back(number->second);
         if (!fresh) continue;
-        const Eigen::Vector3d &place = placed.mesh.vertices[v], moved = axes * placed.displacement[v] / units::mm;
+        const Eigen::Vector3d& place = placed.mesh.vertices[v];
+        const Eigen::Vector3d moved = axes * placed.displacement[v] / units::mm;
         add_place(view.place_mm, axes * place / units::mm);
         for (const double x : moved) view.displacement_mm.push_back(significant(x, 4));
         view.stress_MPa.push_back(significant(field.von_mises(v) / MPa, 4));
@@ -147,8 +148,7 @@ DeformedMesh deformed_mesh(const fem::BodyField& pinion, const fem::BodyField& w
   };
   add(wheel);
   add(pinion);
-  // About a fiftieth of the bodies.
-  view.exaggeration = round_below(0.02 * box.sizes().maxCoeff() / std::max(view.largest_displacement_mm, 1e-12));
+  view.exaggeration = round_below(fem::visible_exaggeration(box.sizes().maxCoeff(), view.largest_displacement_mm));
   view.top_MPa = colour_top(view.stress_MPa);
   return view;
 }

@@ -1,5 +1,7 @@
 #include "app/scene/reference.h"
 
+#include <fmt/format.h>
+
 #include "app/scene/scene_declare.h"
 #include "app/scene/toml/values.h"
 
@@ -63,7 +65,9 @@ Reference read_reference(const std::filesystem::path& file) {
     if (order.values.empty() || order.values.size() == order.variants.size()) continue;
     const Input& values = *holder.find("order.values", i);
     throw SceneError(file.string(),
-                     {{values.line, values.column, "order.values: needs one value per variant, or none"}});
+                     {{values.line, values.column,
+                       fmt::format("order.values: needs one value per variant, or none: {} values for {} variants",
+                                   order.values.size(), order.variants.size())}});
   }
   return reference;
 }
