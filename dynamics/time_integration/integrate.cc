@@ -101,6 +101,14 @@ bool contact_contradicted(const StepperProblem& problem) {
   return false;
 }
 
+/// Does an open mesh turn at this very instant? SUNDIALS steps off a root by rounding, over which this one stays zero, and
+/// refuses two roots so close together; a restart leaves it out until it differs from zero.
+bool turns_exactly(const StepperProblem& problem) {
+  return std::any_of(problem.rooted.begin(), problem.rooted.end(), [&](int m) {
+    return problem.workspace.contact[m] == Contact::open && problem.workspace.delta_rate[m] == 0;
+  });
+}
+
 /// Elastic energy of meshes whose stiffness jumps at `t`, after minus before: held waves before, `middle` after.
 double jump_energy(const LumpedSystem& system, double t, double middle, const double* y,
                    LumpedSystem::Workspace& workspace, const std::function<void(double)>& at_jump) {
@@ -180,7 +188,10 @@ class Integration {
       restart_at_contact();
     } else if (!problem_.rooted.empty()) {
       evaluate_meshes();
-      if (!contact_contradicted(problem_)) return;
+      if (!contact_contradicted(problem_)) {
+        if (reached.root && turns_exactly(problem_) && time_ < stop_) stepper_->restart(time_, stop_);
+        return;
+      }
       system_.detect_contact(problem_.system_time(time_), y.data(), workspace_);
       restart_at_contact();
     }

@@ -156,6 +156,34 @@ BOOST_AUTO_TEST_CASE(fast_errors_strike_a_body_at_rest) {
                "tolerance of the integrator at the events");
 }
 
+// Beside a common velocity, the difference of two velocities is zero for longer than the shortest step.
+BOOST_AUTO_TEST_CASE(turning_within_the_gap_beside_a_fast_common_motion) {
+  annulus::test::Verification record("Two bodies fly together and turn within their gap", "closed form: a parabola");
+  constexpr double common = 100, thrown = 0.04, acceleration = 1, half = 1e-3, end = 0.06;
+  LumpedSystemBuilder builder;
+  const auto first = builder.add_dof("first"), second = builder.add_dof("second");
+  builder.add_mass(first, 2);
+  builder.add_mass(second, 2);
+  builder.add_load(second, -2 * acceleration);
+  MeshElement mesh;
+  mesh.b = second + -1.0 * first;
+  mesh.excitation = ConstantStiffness{4e8};
+  mesh.half_backlash = half;
+  builder.add_mesh(mesh);
+  const auto system = builder.build();
+  for (const auto method : adaptive) {
+    auto workspace = system.workspace();
+    SystemState state;
+    state.q = Eigen::Vector2d::Zero();
+    state.v = Eigen::Vector2d{common, common + thrown};
+    const auto statistics = integrate(system, state, end, tight(method, 1e-10, 1e-13), workspace);
+    record.near("distance after the turn", "m", state.q[1] - state.q[0],
+                thrown * end - acceleration * end * end / 2,
+                2 * 1e-10 * static_cast<double>(statistics.steps) * common * end,
+                "steps x tolerance of the integrator");
+  }
+}
+
 // Meissner's equation: a stiffness switching between two values, each piece an exact rotation in the phase plane.
 // Steps of free flight are far longer than a visit to the back flanks, which begins and ends within one.
 BOOST_AUTO_TEST_CASE(brief_contact_after_a_flight_in_closed_form) {
