@@ -29,7 +29,13 @@ CostRun actual_time(CostRun size, double seconds) {
 
 PlanCost actual_costs(const SystemRun& run) {
   PlanCost cost = run.plan.cost;
-  for (auto& step : cost.steps) step.actual = run.actual(step);
+  for (auto& step : cost.steps) {
+    step.actual = run.actual(step);
+    // Reused responses took no time: neither may the prediction have one for them.
+    if (const auto study = run.studies.times.find(step.label);
+        step.kind == CostKind::studies && study != run.studies.times.end())
+      step.predicted.seconds *= study->second.computed;
+  }
   std::erase_if(cost.steps, [](const CostStep& step) { return !step.actual; });
   // Where nothing was computed there is nothing to compare.
   if (std::all_of(cost.steps.begin(), cost.steps.end(), [](const CostStep& s) { return s.kind == CostKind::files; }))

@@ -162,6 +162,12 @@ struct OptimiseResults {
   return nullptr;
 }
 
+/// How long a study took.
+struct StudyTime {
+  double seconds = 0;   ///< wall
+  double computed = 1;  ///< share of its responses that were not reused
+};
+
 struct StudyResults {
   std::vector<std::string> variants;  ///< names; a single empty one for kinds without variants
   std::string variant_word;           ///< what these are: "ring"
@@ -174,7 +180,7 @@ struct StudyResults {
   std::optional<MonteCarloResult> monte_carlo{};
   std::optional<SensitivityResult> sensitivity{};
   std::optional<OptimiseResults> optimise{};
-  std::map<std::string, double> seconds{};  ///< wall time by StudyPlan::name, of those that reused nothing
+  std::map<std::string, StudyTime> times{};  ///< by StudyPlan::name, of those that computed anything
 
   [[nodiscard]] const FigureSpec* ordering() const { return ordering_figure(figures); }
 };

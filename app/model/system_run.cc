@@ -92,8 +92,8 @@ std::optional<CostRun> SystemRun::actual(const CostStep& step) const {
     return std::nullopt;
   }
   if (step.kind == CostKind::studies) {
-    const auto found = studies.seconds.find(step.label);
-    return found == studies.seconds.end() ? std::nullopt : std::optional(actual_time(step.size, found->second));
+    const auto found = studies.times.find(step.label);
+    return found == studies.times.end() ? std::nullopt : std::optional(actual_time(step.size, found->second.seconds));
   }
   if (step.kind == CostKind::files) {
     const auto other = std::find_if(timings.begin(), timings.end(), [](const auto& t) { return t.first == "other"; });

@@ -149,13 +149,22 @@ StudyResults run_studies(const StudySubject& subject) {
   for (std::size_t i = 0; i < results.variants.size(); ++i) results.nominal.push_back(subject.nominal(i));
   if (!scene.dynamics) return results;
   const auto& reuse = subject.options().reuse;
-  const auto reused = [&] { return reuse ? reuse->counted(study_responses).reused : 0; };
-  // Times are known where nothing was reused.
+  const auto responses = [&] {
+    if (!reuse) return Reuse::Count{};
+    const auto points = reuse->counted(study_responses), searched = reuse->counted(search_evaluations);
+    return Reuse::Count{points.reused + searched.reused, points.computed + searched.computed};
+  };
   const auto timed = [&](const std::string& name, const auto& study) {
-    const auto before = reused();
+    const auto before = responses();
     const Stopwatch watch;
     study();
-    if (reused() == before) results.seconds[name] = watch.seconds();
+    const auto after = responses();
+    const auto reused = static_cast<double>(after.reused - before.reused);
+    const auto computed = static_cast<double>(after.computed - before.computed);
+    if (reused == 0)
+      results.times[name] = {watch.seconds(), 1};
+    else if (computed > 0)
+      results.times[name] = {watch.seconds(), computed / (computed + reused)};
   };
   for (std::size_t i = 0; i < scene.sweeps.size(); ++i)
     timed(fmt::format("[[sweep]] {}", i + 1), [&] { results.sweeps.push_back(run_sweep(subject, i)); });

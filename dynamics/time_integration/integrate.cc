@@ -101,8 +101,8 @@ bool contact_contradicted(const StepperProblem& problem) {
   return false;
 }
 
-/// Does an open mesh turn at this very instant? SUNDIALS steps off a root by rounding, over which this one stays zero, and
-/// refuses two roots so close together; a restart leaves it out until it differs from zero.
+/// Does an open mesh turn at this very instant? SUNDIALS steps off a root by rounding, over which this one stays zero,
+/// and refuses two roots so close together; a restart leaves it out until it differs from zero.
 bool turns_exactly(const StepperProblem& problem) {
   return std::any_of(problem.rooted.begin(), problem.rooted.end(), [&](int m) {
     return problem.workspace.contact[m] == Contact::open && problem.workspace.delta_rate[m] == 0;

@@ -190,6 +190,25 @@ BOOST_AUTO_TEST_CASE(predicted_and_actual_of_other_kinds) {
   }
 }
 
+// The second run finds two of four responses in its folder: half of the prediction is compared with the time.
+BOOST_AUTO_TEST_CASE(studies_reused_in_part) {
+  const test::TemporaryFolder folder("cost_of_a_reused_study");
+  const auto studies = [&](const std::string& powers) {
+    const auto text = test::quick_pair() + "[[sweep]]\ninput = \"stage.pinion_torque_Nm\"\nvalues = " + powers + "\n";
+    const auto scene = app::parse_scene(text, folder.path() / "s.toml");
+    const auto result = app::run_system(scene, {.out = folder.path() / "out", .threads = 1});
+    const auto is_sweep = [](const app::CostStep& step) { return step.label == "[[sweep]] 1"; };
+    const auto planned = std::find_if(result->plan.cost.steps.begin(), result->plan.cost.steps.end(), is_sweep);
+    const auto done = std::find_if(result->cost.steps.begin(), result->cost.steps.end(), is_sweep);
+    BOOST_REQUIRE(planned != result->plan.cost.steps.end());
+    BOOST_REQUIRE(done != result->cost.steps.end());
+    BOOST_TEST(done->actual->seconds() > 0);
+    return done->predicted.seconds / planned->predicted.seconds;
+  };
+  BOOST_TEST(studies("[21000, 22000]") == 1.0, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(studies("[21000, 22000, 23000, 24000]") == 0.5, boost::test_tools::tolerance(1e-12));
+}
+
 BOOST_AUTO_TEST_CASE(predicted_and_actual_of_small_scenes) {
   const test::TemporaryFolder folder("cost_of_a_run");
   for (const std::string top : {"model = \"closed_form\"\n", "accuracy = 0.1\n"}) {

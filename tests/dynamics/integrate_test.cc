@@ -177,8 +177,7 @@ BOOST_AUTO_TEST_CASE(turning_within_the_gap_beside_a_fast_common_motion) {
     state.q = Eigen::Vector2d::Zero();
     state.v = Eigen::Vector2d{common, common + thrown};
     const auto statistics = integrate(system, state, end, tight(method, 1e-10, 1e-13), workspace);
-    record.near("distance after the turn", "m", state.q[1] - state.q[0],
-                thrown * end - acceleration * end * end / 2,
+    record.near("distance after the turn", "m", state.q[1] - state.q[0], thrown * end - acceleration * end * end / 2,
                 2 * 1e-10 * static_cast<double>(statistics.steps) * common * end,
                 "steps x tolerance of the integrator");
   }

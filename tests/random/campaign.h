@@ -19,6 +19,7 @@ struct CampaignSettings {
   int seconds = 300;                     ///< of each run
   std::string max_time = "1h";           ///< predicted; more expensive scenes are left out
   std::vector<std::string> relations{};  ///< names; empty: all
+  std::vector<std::string> systems{};    ///< kinds with the wanted model, "planetary, solid"; empty: all
   std::filesystem::path table{};         ///< file for the tables, written anew after every scene; empty: none
 };
 

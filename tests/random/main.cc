@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", settings.seconds, "Limit of each run");
   app.add_option("--max-time", settings.max_time, "Predicted time above which a scene is left out");
   app.add_option("--relations", settings.relations, "Names of relations; all without");
+  app.add_option("--systems", settings.systems, "Kinds with the wanted model (\"planetary, solid\"); all without");
   app.add_option("--folder", settings.folder, "Where scenes and results of pairs that disagree are left");
   app.add_option("--table", settings.table, "File for the tables (Markdown)");
   std::uint64_t show = 0;

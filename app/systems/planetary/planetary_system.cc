@@ -24,6 +24,7 @@
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/stage_supports.h"
 #include "app/systems/planetary/stage_warnings.h"
+#include "app/systems/planetary/static_results.h"
 #include "app/systems/planetary/statics.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/faces.h"

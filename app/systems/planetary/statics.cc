@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <set>
-#include <utility>
 
 #include "app/model/plan_studies.h"
 #include "app/model/table_errors.h"
@@ -16,6 +13,7 @@
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/space_stage.h"
+#include "app/systems/planetary/static_errors.h"
 #include "app/systems/planetary/structure_input.h"
 #include "app/systems/shared/faces.h"
 #include "app/systems/shared/friction.h"
@@ -33,153 +31,6 @@ using dynamics::SpatialStage;
 using dynamics::StaticPosition;
 using dynamics::StaticSchedule;
 using dynamics::StaticTurn;
-
-/// One of its places, or phases, in two.
-StaticTurn every_second(const StaticTurn& turn, bool places, std::size_t from) {
-  StaticTurn half = turn;
-  half.positions.clear();
-  const auto phases = static_cast<std::size_t>(turn.schedule.phases);
-  if (places) {
-    half.schedule.cycles.clear();
-    for (std::size_t i = from; i < turn.schedule.cycles.size(); i += 2)
-      half.schedule.cycles.push_back(turn.schedule.cycles[i]);
-  } else {
-    half.schedule.phases = static_cast<int>((phases + 1 - from) / 2);
-  }
-  for (std::size_t i = 0; i < turn.positions.size(); ++i)
-    if ((places ? i / phases : i % phases) % 2 == from) half.positions.push_back(turn.positions[i]);
-  return half;
-}
-
-std::vector<StaticTurn> one_by_one(const StaticTurn& turn) {
-  std::vector<StaticTurn> list;
-  const auto phases = static_cast<std::ptrdiff_t>(turn.schedule.phases);
-  for (std::size_t i = 0; i < turn.schedule.cycles.size(); ++i) {
-    auto& place = list.emplace_back();
-    place.schedule = {{turn.schedule.cycles[i]}, turn.schedule.phases};
-    const auto first = turn.positions.begin() + static_cast<std::ptrdiff_t>(i) * phases;
-    place.positions.assign(first, first + phases);
-  }
-  return list;
-}
-
-/// How a result follows the positions; with kinks it changes suddenly, as the largest load along a face does.
-enum class Course { smooth, with_kinks };
-
-/// The largest value of something in a turn.
-struct StaticResult {
-  std::string key;
-  std::function<double(const StaticTurn&)> largest;
-  Course course = Course::smooth;
-};
-using StaticResults = std::vector<StaticResult>;
-
-double largest(const StaticTurn& turn, const std::function<double(const StaticPosition&)>& value) {
-  double most = 0;
-  for (const auto& p : turn.positions) most = std::max(most, value(p));
-  return most;
-}
-
-void add_mesh_results(const StaticTurn& turn, StaticResults& list) {
-  using dynamics::StaticFigures;
-  for (const auto& [name, mesh, stations] : {std::tuple{"sun_planet", &StaticFigures::sun, &turn.sun_stations},
-                                             {"ring_planet", &StaticFigures::ring, &turn.ring_stations}}) {
-    const auto add = [&, mesh = mesh](const char* key, double StaticFigures::Mesh::*member, Course course) {
-      list.push_back({fmt::format("{}_static_{}", name, key),
-                      [=](const StaticTurn& t) { return dynamics::figures_of(t).*mesh.*member; }, course});
-    };
-    add("load_sharing", &StaticFigures::Mesh::sharing, Course::smooth);
-    add("load_sharing_instantaneous", &StaticFigures::Mesh::sharing_instantaneous, Course::smooth);
-    // A face of two stations is that of a plane stage, along which nothing is modelled.
-    if (stations->size() <= 2) continue;
-    add("face_load_factor", &StaticFigures::Mesh::line_load_ratio, Course::smooth);
-    add("face_load_factor_instantaneous", &StaticFigures::Mesh::line_load_ratio_instantaneous, Course::with_kinks);
-  }
-}
-
-std::string bearing_key(std::size_t bearing, const char* what) { return fmt::format("bearing{}_{}", bearing, what); }
-std::string tilt_key(std::size_t body) { return fmt::format("tilt{}", body); }
-
-StaticResults results_of(const StaticTurn& turn) {
-  StaticResults list;
-  add_mesh_results(turn, list);
-  const auto add = [&](const std::string& key, const std::function<double(const StaticPosition&)>& value) {
-    list.push_back({key, [value](const StaticTurn& t) { return largest(t, value); }});
-  };
-  for (std::size_t b = 0; b < turn.bearing_names.size(); ++b) {
-    const auto bearing = [&](const char* what, const std::function<double(const dynamics::StaticBearing&)>& value) {
-      add(bearing_key(b, what), [b, value](const StaticPosition& p) { return value(p.bearings.at(b)); });
-    };
-    bearing("radial", [](const auto& x) { return x.force.template head<2>().norm(); });
-    bearing("axial", [](const auto& x) { return std::abs(x.force.z()); });
-    bearing("moment", [](const auto& x) { return x.moment.norm(); });
-    bearing("element", [](const auto& x) { return x.largest_element; });
-  }
-  for (std::size_t b = 0; b < turn.body_names.size(); ++b)
-    add(tilt_key(b), [b](const StaticPosition& p) { return p.bodies.at(b).rotation.head<2>().norm(); });
-  return list;
-}
-
-FigureSet values(const StaticResults& results, const StaticTurn& turn) {
-  FigureSet set;
-  for (const auto& result : results) set.set(result.key, {result.largest(turn), 0});
-  return set;
-}
-
-std::vector<double> by_place(const StaticResult& result, const std::vector<StaticTurn>& places) {
-  std::vector<double> list;
-  for (const auto& place : places) list.push_back(result.largest(place));
-  return list;
-}
-std::size_t largest_of(const std::vector<double>& list) {
-  return static_cast<std::size_t>(std::max_element(list.begin(), list.end()) - list.begin());
-}
-
-/// The places at which a result is largest: a small change of the stage changes it there.
-StaticTurn decisive_places(const StaticResults& results, const StaticTurn& turn,
-                           const std::vector<StaticTurn>& places) {
-  std::set<std::size_t> decisive;
-  for (const auto& result : results) decisive.insert(largest_of(by_place(result, places)));
-  StaticTurn part = turn;
-  part.positions.clear();
-  part.schedule.cycles.clear();
-  for (const auto place : decisive) {
-    part.schedule.cycles.push_back(turn.schedule.cycles[place]);
-    part.positions.insert(part.positions.end(), places[place].positions.begin(), places[place].positions.end());
-  }
-  return part;
-}
-
-/// The results of a stage, whose errors add up what other turns make of them.
-struct StaticErrors {
-  const StaticResults& results;
-  FigureSet figures;
-
-  void add(const std::string& key, double ErrorParts::*part, double error) {
-    const auto entry = *figures.find(key);
-    auto parts = entry.parts;
-    parts.*part += error;
-    figures.set(key, {entry.figure.value, parts.total()}, parts);
-  }
-  /// `weight`: of results that change smoothly.
-  void add_difference(const StaticTurn& other, double ErrorParts::*part, double weight = 1) {
-    for (const auto& result : results)
-      add(result.key, part,
-          (result.course == Course::smooth ? weight : 1) * std::abs(result.largest(other) - figures.value(result.key)));
-  }
-  /// What the largest values may be missed by between places that follow each other smoothly around a turn: the sagitta
-  /// of a parabola through the largest and its neighbours.
-  void add_between(const std::vector<StaticTurn>& places) {
-    const std::size_t count = places.size();
-    if (count < 3) return;
-    for (const auto& result : results) {
-      const auto list = by_place(result, places);
-      const auto at = largest_of(list);
-      add(result.key, &ErrorParts::interpolation,
-          std::abs(list[(at + count - 1) % count] - 2 * list[at] + list[(at + 1) % count]) / 8);
-    }
-  }
-};
 
 std::vector<BearingStatics> all_bearings(const SpatialStage& stage, const StaticTurn& turn, const FigureSet& figures) {
   std::vector<BearingStatics> list;
@@ -302,7 +153,7 @@ struct RingProblem {
   const std::shared_ptr<const fem::SolidFace>&sun_face, &ring_face;
 };
 
-/// The results with the errors that the tables of meshes without solid faces bring. `decisive`: see above.
+/// The results with the errors that the tables of meshes without solid faces bring. `decisive`: decisive_places().
 FigureSet with_errors_of_tables(const RingProblem& of, const StageFaces& faces, const StaticResults& results,
                                 const StaticTurn& decisive, int threads) {
   std::vector<const MeshResult*> tables;
@@ -333,21 +184,10 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
     return dynamics::solve_turn(changed, schedule, options.threads, &result.turn);
   };
   const auto results = results_of(result.turn);
-  const auto places = one_by_one(result.turn);
-  StaticErrors errors{results, with_errors_of_tables(of, faces, results, decisive_places(results, result.turn, places),
-                                                     options.threads)};
-  // What lies between the positions of a smooth course falls with the square of their distance: half of them leave four
-  // times as much. The other half has the largest value where one does not. Several periods at once are met by chance.
-  constexpr double of_half = 1.0 / 3;
-  const bool one_period = stage.plane.error_period() == 1;
-  if (one_period) errors.add_between(places);
-  for (const std::size_t from : {0u, 1u}) {
-    if (schedule.cycles.size() > 1)
-      errors.add_difference(every_second(result.turn, true, from), &ErrorParts::interpolation,
-                            one_period ? of_half : 1);
-    if (schedule.phases > 1)
-      errors.add_difference(every_second(result.turn, false, from), &ErrorParts::interpolation, of_half);
-  }
+  StaticErrors errors(
+      results, with_errors_of_tables(of, faces, results, decisive_places(results, result.turn), options.threads));
+  using Periods = StaticErrors::Periods;
+  errors.add_positions(result.turn, stage.plane.error_period() == 1 ? Periods::one : Periods::several);
   // The elements leave no more than what a level changes.
   if (faces.sun || faces.ring)
     errors.add_difference(
@@ -358,9 +198,9 @@ RingStatics solve_ring(const RingProblem& of, const RunOptions& options) {
       (spread(faces.ring) && result.turn.ring_stations.size() > 2)) {
     auto fewer = faces;
     fewer.stretches /= 2;
-    errors.add_difference(solve(make(fewer)), &ErrorParts::discretisation, of_half);
+    errors.add_difference(solve(make(fewer)), &ErrorParts::discretisation, of_half_the_points);
   }
-  result.figures = errors.figures;
+  result.figures = errors.figures();
   result.bearings = all_bearings(stage, result.turn, result.figures);
   for (std::size_t b = 0; b < result.turn.body_names.size(); ++b)
     result.tilt.push_back(result.figures.figure(tilt_key(b)));
@@ -424,53 +264,6 @@ StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, con
   warn_of_studies(statics);
   warn_of_friction(statics);
   return statics;
-}
-
-const std::vector<FigureSpec>& static_figures() {
-  static const auto list = [] {
-    std::vector<FigureSpec> specs;
-    for (const auto& [mesh, words, gear] :
-         {std::tuple{"sun_planet", "sun meshes", "sun"}, {"ring_planet", "ring meshes", "ring"}}) {
-      FigureSpec sharing;
-      sharing.key = fmt::format("{}_static_load_sharing", mesh);
-      sharing.title = fmt::format("Load sharing of the {} in equilibrium over a turn", words);
-      sharing.symbol = "K_γ";
-      sharing.definition =
-          "Mesh force of a planet, averaged over a mesh cycle, over the mean of all planets: the largest over the "
-          "planets and over all positions of the carrier, without inertia (annulus statics).";
-      sharing.term = "load_sharing";
-      sharing.better = Better::smaller;
-      sharing.quantity = "load_sharing";
-      specs.push_back(sharing);
-      sharing.key += "_instantaneous";
-      sharing.title = fmt::format("Load sharing of the {} in equilibrium, in any position", words);
-      sharing.definition =
-          "Mesh force of a planet over the mean of all planets: the largest over the planets and all "
-          "positions, without inertia (annulus statics).";
-      specs.push_back(sharing);
-      FigureSpec face;
-      face.key = fmt::format("{}_static_face_load_factor", mesh);
-      face.title = fmt::format("Face load factor of the {} in equilibrium over a turn", words);
-      face.symbol = "K_Hβ";
-      face.definition = fmt::format(
-          "Largest force per face width over the mean one of the mesh, both averaged over a mesh cycle, of planets and "
-          "{} in an equilibrium without inertia (annulus statics). Meshes that carry less than a twentieth of the mean "
-          "do not count.",
-          gear);
-      face.better = Better::smaller;
-      specs.push_back(face);
-      face.key += "_instantaneous";
-      face.title = fmt::format("Face load factor of the {} in equilibrium, in any position", words);
-      face.definition = fmt::format(
-          "Largest force per face width over the mean one of the mesh at that moment, of planets and {} in an "
-          "equilibrium without inertia (annulus statics). Meshes that carry less than a twentieth of the mean do not "
-          "count. It is large where a pair comes into contact or leaves it at one end of the face.",
-          gear);
-      specs.push_back(face);
-    }
-    return specs;
-  }();
-  return list;
 }
 
 }  // namespace annulus::app

@@ -45,9 +45,6 @@ struct StageStatics {
 /// Stiffness tables first where meshes are computed. Throws what solving throws, with its place in the scene.
 [[nodiscard]] StageStatics solve_statics(const Scene& scene, const GearGeometry& geometry, const RunOptions& options);
 
-/// Results of the statics of a stage.
-[[nodiscard]] const std::vector<FigureSpec>& static_figures();
-
 /// OUT/statics/<ring>/*.csv, statics.json, statics.html with its pictures.
 void write_statics(const StageStatics& statics, const RunOptions& options);
 [[nodiscard]] std::string statics_text(const StageStatics& statics);

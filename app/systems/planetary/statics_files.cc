@@ -9,6 +9,7 @@
 #include "app/results/content_id.h"
 #include "app/results/program_identity.h"
 #include "app/sections/report_parts.h"
+#include "app/systems/planetary/static_results.h"
 #include "app/systems/planetary/statics.h"
 #include "core/csv.h"
 #include "core/files.h"
