@@ -24,6 +24,7 @@
 #include "app/process/system_limits.h"
 #include "app/results/content_id.h"
 #include "app/scene/example_scenes.h"
+#include "app/scene/scene_schema.h"
 #include "app/scene/scene_value.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -243,7 +244,7 @@ void declare(CLI::App& app, Arguments& arguments) {
                what);
 
   auto* fresh = app.add_subcommand("new", "Writes a commented scene to standard output");
-  fresh->add_option("kind", arguments.kind, "Kind of stage: planetary, helical_pair, two_k_v");
+  fresh->add_option("kind", arguments.kind, "Kind of stage: " + listed(stage_kinds()));
   fresh->add_option("--rexs", arguments.rexs, "Fill it with the gear data of this REXS file");
   fresh->add_option("--example", arguments.example, "The scene of this name from the project's examples and cases");
   fresh->add_flag("--minimal", arguments.minimal, "A planetary stage with as few lines as possible");

@@ -34,6 +34,12 @@ Json to_json(const Figure& figure) {
   return {{"value", json_number(figure.value)}, {"error", json_number(figure.error)}};
 }
 
+Json to_json(const Figure& figure, const ErrorParts& parts) {
+  auto json = to_json(figure);
+  json["error_parts"] = to_json(parts);
+  return json;
+}
+
 Figure figure_of(const Json& json) { return {number_of(json.at("value")), number_of(json.at("error"))}; }
 
 Json to_json(const Spread& spread) {

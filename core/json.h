@@ -25,6 +25,7 @@ using Json = nlohmann::ordered_json;
 
 /// {"value": 1, "error": 0.1}.
 [[nodiscard]] Json to_json(const Figure& figure);
+[[nodiscard]] Json to_json(const Figure& figure, const ErrorParts& parts);  ///< with "error_parts"
 [[nodiscard]] Figure figure_of(const Json& json);
 
 /// {"quantile_05": 1, "median": 2, "quantile_95": 3, "samples": 20}.

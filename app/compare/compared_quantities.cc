@@ -54,8 +54,7 @@ ComparedQuantity quantity_of(const FigureSpec& declared, const std::vector<const
 
 }  // namespace
 
-Comparison::Comparison(const std::vector<ComparedRun>& runs)
-    : inputs(differing_inputs(runs)), inputs_remark(unknown_inputs_text(runs)) {
+Comparison::Comparison(const std::vector<ComparedRun>& runs) : inputs(differing_inputs(runs)) {
   const auto all = all_variants(runs);
   for (const auto* variant : all) variants.push_back(variant->name);
   for (const auto& spec : *runs.front().specs) {
@@ -63,16 +62,13 @@ Comparison::Comparison(const std::vector<ComparedRun>& runs)
     auto compared = quantity_of(spec, all);
     if (!compared.si.variants.empty()) quantities.push_back(std::move(compared));
   }
-  if (inputs.empty() && inputs_remark.empty()) inputs_remark = "No input differs.";
 }
 
 std::vector<DifferingInput> differing_inputs(const std::vector<ComparedRun>& runs) {
   std::set<std::string> keys;
-  for (const auto& run : runs) {
-    if (!run.inputs_known) continue;
+  for (const auto& run : runs)
     for (const auto& variant : run.variants)
       for (const auto& [key, value] : variant.inputs) keys.insert(key);
-  }
   std::vector<DifferingInput> list;
   for (const auto& key : keys) {
     DifferingInput input{key, {}};
@@ -80,20 +76,12 @@ std::vector<DifferingInput> differing_inputs(const std::vector<ComparedRun>& run
     for (const auto& run : runs)
       for (const auto& variant : run.variants) {
         const auto found = variant.inputs.find(key);
-        input.values.push_back(!run.inputs_known ? "?" : found == variant.inputs.end() ? "–" : found->second);
-        if (run.inputs_known) known.insert(input.values.back());
+        input.values.push_back(found == variant.inputs.end() ? "–" : found->second);
+        known.insert(input.values.back());
       }
     if (known.size() > 1) list.push_back(std::move(input));
   }
   return list;
-}
-
-std::string unknown_inputs_text(const std::vector<ComparedRun>& runs) {
-  std::string names;
-  for (const auto& run : runs)
-    if (!run.inputs_known) names += (names.empty() ? "" : ", ") + run.name;
-  return names.empty() ? ""
-                       : "Inputs not known for " + names + ": the run is from an earlier version; run its scene again.";
 }
 
 }  // namespace annulus::app

@@ -26,8 +26,6 @@ struct DifferingInput {
   std::vector<std::string> values;
 };
 [[nodiscard]] std::vector<DifferingInput> differing_inputs(const std::vector<ComparedRun>& runs);
-/// What the inputs do not state: runs that do not list them. Empty: they all do.
-[[nodiscard]] std::string unknown_inputs_text(const std::vector<ComparedRun>& runs);
 
 /// Finished runs side by side: what text, table and page show.
 struct Comparison {
@@ -36,7 +34,6 @@ struct Comparison {
   std::vector<std::string> variants{};         ///< in the order of the runs
   std::vector<ComparedQuantity> quantities{};  ///< those that at least one variant has
   std::vector<DifferingInput> inputs{};
-  std::string inputs_remark{};  ///< instead of them, or besides
 };
 
 }  // namespace annulus::app

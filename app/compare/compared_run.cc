@@ -76,7 +76,6 @@ std::string input_text(const Json& value) {
 /// Inputs of one variant: its own and those of all.
 std::map<std::string, std::string> inputs_of(const Json& json, const std::string& variant) {
   std::map<std::string, std::string> inputs;
-  if (!json.contains("inputs")) return inputs;
   for (const auto& input : json.at("inputs")) {
     const std::string key = input.at("key"), own = input.value(key.substr(0, key.find('.')), "");
     if (key == "title" || (!own.empty() && own != variant)) continue;
@@ -93,8 +92,7 @@ ComparedRun run_of(const Json& json, const fs::path& folder) {
                   .title = json.at("title"),
                   .version = json.at("annulus_version"),
                   .kind = json.at("kind"),
-                  .accuracy = json.at("accuracy_wanted"),
-                  .inputs_known = json.contains("inputs")};
+                  .accuracy = json.at("accuracy_wanted")};
   for (const auto& kind : system_kinds())
     if (run.kind == kind.scene.name) run.specs = &kind.figures();
   if (!run.specs) throw InputError(fmt::format("kind is '{}'; the kinds are {}", run.kind, listed(stage_kinds())));

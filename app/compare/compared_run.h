@@ -24,7 +24,6 @@ struct ComparedRun {
   std::string name{}, title{}, version{}, kind{};
   double accuracy = 0;
   const std::vector<FigureSpec>* specs = nullptr;  ///< results of runs of this kind
-  bool inputs_known = false;                       ///< runs of earlier versions do not list them
   std::vector<ComparedVariant> variants{};
   std::vector<std::pair<std::string, double>> timings{};  ///< s
   double peak_memory_MB = 0;

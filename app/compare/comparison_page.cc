@@ -59,8 +59,10 @@ Section differences_part(const Comparison& comparison) {
 
 Section inputs_part(const Comparison& comparison) {
   Section section{"inputs", "Inputs that differ"};
-  if (!comparison.inputs_remark.empty()) section.blocks += paragraph(comparison.inputs_remark);
-  if (comparison.inputs.empty()) return section;
+  if (comparison.inputs.empty()) {
+    section.blocks += paragraph("No input differs.");
+    return section;
+  }
   auto table = variant_table(comparison);
   for (const auto& input : comparison.inputs) add_row(table, code(input.key), input.values);
   section.blocks += table;
@@ -117,10 +119,9 @@ std::string comparison_text(const std::vector<ComparedRun>& runs) {
   text += "\nAgainst " + variants.front() + "\n";
   for (const auto& quantity : comparison.quantities)
     for (const auto& difference : quantity.differences) text += "  " + quantity.shown.name + ": " + difference + "\n";
-  if (!comparison.inputs.empty()) text += "\nInputs that differ\n";
+  text += comparison.inputs.empty() ? "\nNo input differs.\n" : "\nInputs that differ\n";
   for (const auto& input : comparison.inputs)
     text += fmt::format("  {} {}\n", left_aligned(input.key, 40), fmt::join(input.values, " | "));
-  if (!comparison.inputs_remark.empty()) text += "\n" + comparison.inputs_remark + "\n";
   text += "\n";
   for (const auto& run : runs) {
     double total = 0;
@@ -153,7 +154,7 @@ Json comparison_json(const std::vector<ComparedRun>& runs) {
 std::string comparison_csv(const std::vector<ComparedRun>& runs) {
   std::string text = fmt::format("# annulus_version: {}\n# kind: {}\n", version(), runs.front().kind);
   for (const auto& run : runs) text += "# run: " + csv_line(run.name + " = " + run.folder.string()) + "\n";
-  text += "figure,unit,variant,value,error,difference_to_first,errors_together,against_first\n";
+  text += "result,unit,variant,value,error,difference_to_first,errors_together,against_first\n";
   for (const auto& quantity : Comparison(runs).quantities) {
     const auto& spec = quantity.spec;
     const auto& shown = quantity.shown;

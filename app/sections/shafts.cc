@@ -10,9 +10,6 @@
 namespace annulus::app {
 
 Json to_json(const std::vector<dynamics::ShaftResult>& shafts) {
-  const auto figure = [](const Figure& f) {
-    return Json{{"value", json_number(f.value)}, {"error", json_number(f.error)}};
-  };
   auto list = Json::array();
   for (const auto& shaft : shafts)
     list.push_back({{"rotor", shaft.name},
@@ -20,9 +17,9 @@ Json to_json(const std::vector<dynamics::ShaftResult>& shafts) {
                     {"nominal_torque_N_m", shaft.nominal_torque},
                     {"mean_torque_N_m", json_number(shaft.mean_torque)},
                     {"smallest_torque_N_m", json_number(shaft.smallest_torque)},
-                    {"largest_torque_N_m", figure(shaft.largest_torque)},
-                    {"torque_factor", figure(shaft.torque_factor())},
-                    {"contact_loss", figure(shaft.contact_loss)}});
+                    {"largest_torque_N_m", annulus::to_json(shaft.largest_torque)},
+                    {"torque_factor", annulus::to_json(shaft.torque_factor())},
+                    {"contact_loss", annulus::to_json(shaft.contact_loss)}});
   return list;
 }
 

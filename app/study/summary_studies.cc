@@ -86,10 +86,6 @@ Json load_spectrum_json(const StudyResults& studies, std::size_t variant) {
   return json;
 }
 
-Json figure_json(const Figure& figure) {
-  return {{"value", json_number(figure.value)}, {"error", json_number(figure.error)}};
-}
-
 Json transient_json(const TransientResult& course, std::size_t number, std::size_t variant) {
   const auto& found = course.variants.at(variant);
   Json json = {{"name", course.input.name}, {"file", fmt::format("transient_{}.csv", number)}};
@@ -100,13 +96,13 @@ Json transient_json(const TransientResult& course, std::size_t number, std::size
   const auto& r = found.response;
   const auto peak = r.peak();
   for (const auto& spec : dynamics::transient_figures())
-    if (const auto* entry = found.figures.find(spec.key)) json["results"][spec.key] = figure_json(entry->figure);
+    if (const auto* entry = found.figures.find(spec.key)) json["results"][spec.key] = to_json(entry->figure);
   json["at"] = {{"mesh", r.meshes[static_cast<std::size_t>(peak.mesh)]},
                 {"time_s", json_number(peak.time)},
                 {"speed_factor", json_number(peak.speed)}};
   for (int row = 0; row < static_cast<int>(r.meshes.size()); ++row)
     json[row < r.gears ? "contact_loss" : "shaft_torque"][r.meshes[static_cast<std::size_t>(row)]] =
-        figure_json(found.figures.figure(dynamics::course_element_key(row)));
+        to_json(found.figures.figure(dynamics::course_element_key(row)));
   json["settled_before"] = r.settled ? Json(*r.settled) : Json();
   json["warnings"] = course.warnings(variant);
   return json;
@@ -195,7 +191,7 @@ Json studies_json(const StudyResults& studies) {
   if (studies.monte_carlo && studies.variants.size() > 1) {
     auto& orders = json["monte_carlo"]["orders"] = Json::array();
     for (const auto& o : studies.monte_carlo->orders)
-      orders.push_back({{"figure", o.figure},
+      orders.push_back({{"result", o.figure},
                         {studies.variant_word, studies.variants[o.a]},
                         {"above", studies.variants[o.b]},
                         {"share", interval_json(o.share)},

@@ -18,9 +18,9 @@ Eigen::Index element_of(const LumpedSystem& system, const std::string& shaft) {
   throw InternalError("internal error: no shaft '" + shaft + "'");
 }
 
-std::string torque_key(const ShaftResult& shaft) { return shaft.name + "_torque_Nm"; }
-
 }  // namespace
+
+std::string torque_key(const ShaftResult& shaft) { return shaft.name + "_torque_Nm"; }
 
 Figure ShaftResult::torque_factor() const {
   if (nominal_torque == 0) return {not_known, not_known};

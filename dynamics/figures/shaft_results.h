@@ -37,7 +37,9 @@ inline constexpr const char* shaft_key = "shaft_torque_factor";
 [[nodiscard]] FigureSpec shaft_figure();
 /// Sets it where there are shafts.
 void add_shafts(FigureSet& figures, const std::vector<ShaftResult>& shafts);
-/// Sets the largest torque of every shaft by itself: <name>_torque_Nm.
+/// <name>_torque_Nm.
+[[nodiscard]] std::string torque_key(const ShaftResult& shaft);
+/// Sets the largest torque of every shaft by itself.
 void add_each_shaft(FigureSet& figures, const std::vector<ShaftResult>& shafts);
 /// Takes the errors of these back from the results.
 void set_errors(std::vector<ShaftResult>& shafts, const FigureSet& figures);

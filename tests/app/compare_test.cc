@@ -145,12 +145,6 @@ BOOST_AUTO_TEST_CASE(inputs_that_differ_are_listed_and_no_others) {
   BOOST_TEST(has_text(page, "load sharing K_γ, a: pinned"));
   // Nothing from outside.
   for (const char* outside : {"src=\"", "href=\"http", "url("}) BOOST_TEST(!has_text(page, outside), outside);
-  // A run of an earlier version has no inputs: that is told, and nothing is made of it.
-  auto old = summary_of({{"held", ring_of(1e9, 0.01, 1.2, 0.01)}});
-  old.erase("inputs");
-  const auto with_old = app::read_finished_runs({b, finished(folder.path() / "old", old)});
-  BOOST_TEST(app::differing_inputs(with_old).empty());
-  BOOST_TEST(has_text(app::unknown_inputs_text(with_old), "Inputs not known for old"));
 }
 
 BOOST_AUTO_TEST_CASE(runs_are_named_as_shortly_as_tells_them_apart) {

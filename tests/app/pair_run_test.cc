@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(a_pair_runs_from_scene_to_report) {
   const auto json = nlohmann::json::parse(read_file(folder.path() / "summary.json"));
   BOOST_TEST(json["kind"] == "helical_pair");
   BOOST_TEST(json["manufacturing_error"]["readings"].size() == 14U);
-  BOOST_TEST(json["manufacturing_error"]["taken"] == "pinion_envelope");
+  BOOST_TEST(json["manufacturing_error"]["applied"] == "pinion_envelope");
   BOOST_TEST(json["mesh_error_m"].get<double>() == result.errors.amplitude);
   BOOST_TEST(json["transmission_error_shares"].size() == 3U);
   BOOST_TEST(json["grids"][0]["mesh_force_max_N"].size() == 6U);
@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(finite_elements_of_a_pair_are_solved_compared_and_reused) {
   // mean of its deflection; the error wave around it has none.
   const double force = result.geometry.transverse_force;
   const double bearings = force * 2 / 1e9;
-  BOOST_TEST(result.response->figures.quasi_static.transmission_error.mean ==
+  BOOST_TEST(result.response->figures.quasi_static.transmission_error.mean.value ==
                  result.mesh.computed->lte_mean().value + bearings,
              boost::test_tools::tolerance(1e-3));
   // A stiffer table deflects less: the error of the table is carried into what the load bends. The phases add to it,

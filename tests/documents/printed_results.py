@@ -163,7 +163,7 @@ def ring_types(s):
         f"difference between the rings is {max(averaged) - min(averaged):.3f} instead of 0.07",
     ]
     titles = {"traditional": "outside fixed", "pinned": "24 pins", "thin-walled": "cantilever"}
-    orders = [o for o in s.at("monte_carlo/orders") if o["figure"] == "sun_planet_load_sharing_averaged"]
+    orders = [o for o in s.at("monte_carlo/orders") if o["result"] == "sun_planet_load_sharing_averaged"]
     same_order = all(o["share"]["value"] in (0, 1) for o in orders)
     readme = [
         f"| {r} ({titles[r]}) | {s.result(r, 'ring_planet_mean_stiffness_N_per_m', 1e-6)} "
@@ -204,9 +204,9 @@ def ring_types_uncertainty(s):
         key = f"load_sharing_of_assemblies_{name.lower()}"
         texts.append(ring_row(f"K_γ {name} of the assemblies", lambda r: s.result(r, key)))
 
-    order = {(o["figure"], o["ring"], o["above"]): o for o in s.at("monte_carlo/orders")}
+    order = {(o["result"], o["ring"], o["above"]): o for o in s.at("monte_carlo/orders")}
     above = lambda key, ring, other: order[f"sun_planet_{key}", ring, other]
-    same = [o for o in order.values() if o["figure"] == f"sun_planet_{sharing}"]
+    same = [o for o in order.values() if o["result"] == f"sun_planet_{sharing}"]
     certain = min(max(o["share"]["low"], 1 - o["share"]["high"]) for o in same)
     texts.append(only_if(all(o["share"]["value"] in (0, 1) for o in same), f"(share above {100 * certain:.1f} %)"))
     peak = above("peak_factor", "traditional", "pinned")

@@ -58,10 +58,13 @@ void set_errors(const FigureSet& figures, dynamics::PairResponse& r) {
                                     {"mesh_force_min_N", forward ? &r.force_min : &r.force_max},
                                     {"dynamic_factor", &r.dynamic_factor},
                                     {"peak_factor", &r.peak_factor},
+                                    {"transmission_error_mean_m", &te.mean},
                                     {"transmission_error_max_m", &te.largest},
                                     {"transmission_error_peak_to_peak_m", &te.peak_to_peak},
+                                    {"transmission_error_static_mean_m", &still.mean},
                                     {"transmission_error_static_max_m", &still.largest},
                                     {"transmission_error_static_peak_to_peak_m", &still.peak_to_peak},
+                                    {"relative_motion_mean_m", &relative.mean},
                                     {"relative_motion_max_m", &relative.largest},
                                     {"relative_motion_peak_to_peak_m", &relative.peak_to_peak}})
     figure->error = figures.figure(key).error;

@@ -130,7 +130,7 @@ SpeedRow speed_row(const LumpedPair& nominal, double speed) {
 void save_speeds(const std::vector<SpeedRow>& rows, const std::filesystem::path& folder) {
   Csv csv{.header = {{"annulus_version", version()}}, .columns = {"pinion_speed_rpm"}, .rows = {}};
   for (const std::string cause : {"all", "errors_alone", "stiffness_alone"}) {
-    for (const auto* what : {"_acceleration_m_per_s2", "_force_range_N", "_transmission_error_m"})
+    for (const auto* what : {"_acceleration_m_per_s2", "_force_peak_to_peak_N", "_transmission_error_m"})
       csv.columns.push_back(cause + what);
   }
   for (const auto& row : rows) {

@@ -14,10 +14,8 @@ namespace annulus::app {
 
 namespace {
 
-Json pair_figure(const Figure& f) { return {{"value", json_number(f.value)}, {"error", json_number(f.error)}}; }
-
 Json motion_json(const dynamics::MotionFigures& m) {
-  return {{"mean_m", m.mean}, {"peak_to_peak_m", pair_figure(m.peak_to_peak)}, {"largest_m", pair_figure(m.largest)}};
+  return {{"mean_m", to_json(m.mean)}, {"peak_to_peak_m", to_json(m.peak_to_peak)}, {"largest_m", to_json(m.largest)}};
 }
 
 Json errors_json(const PairRunResult& result) {
@@ -32,7 +30,7 @@ Json errors_json(const PairRunResult& result) {
                                 {"high_m", json_number(r.sample.high)},
                                 {"exact_m", r.exact}};
   const auto* taken = result.errors.taken(result.scene);
-  json["taken"] = taken ? Json(taken->name) : Json(nullptr);
+  json["applied"] = taken ? Json(taken->name) : Json(nullptr);
   return json;
 }
 
@@ -55,16 +53,16 @@ Json response_json_of(const PairResponseResult& response) {
   const auto& f = response.figures;
   Json json = {{"mesh_frequency_Hz", f.mesh_frequency},
                {"static_force_N", f.static_force},
-               {"mesh_force_max_N", pair_figure(dynamics::loaded_force(f).largest)},
-               {"mesh_force_min_N", pair_figure(dynamics::loaded_force(f).smallest)},
-               {"dynamic_factor", pair_figure(f.dynamic_factor)},
-               {"peak_factor", pair_figure(f.peak_factor)},
-               {"contact_loss", pair_figure(f.contact_loss)},
+               {"mesh_force_max_N", to_json(dynamics::loaded_force(f).largest)},
+               {"mesh_force_min_N", to_json(dynamics::loaded_force(f).smallest)},
+               {"dynamic_factor", to_json(f.dynamic_factor)},
+               {"peak_factor", to_json(f.peak_factor)},
+               {"contact_loss", to_json(f.contact_loss)},
                {"acceleration_m_per_s2",
-                {{"tooth", pair_figure(f.acceleration.tooth)},
-                 {"line_of_action", pair_figure(f.acceleration.line_of_action)},
-                 {"axial", pair_figure(f.acceleration.axial)},
-                 {"rotation", pair_figure(f.acceleration.rotation)}}},
+                {{"tooth", to_json(f.acceleration.tooth)},
+                 {"line_of_action", to_json(f.acceleration.line_of_action)},
+                 {"axial", to_json(f.acceleration.axial)},
+                 {"rotation", to_json(f.acceleration.rotation)}}},
                {"transmission_error", motion_json(f.dynamic.transmission_error)},
                {"transmission_error_quasi_static", motion_json(f.quasi_static.transmission_error)},
                {"relative_motion", motion_json(f.dynamic.relative)},
@@ -89,7 +87,7 @@ Json pair_summary(const PairRunResult& result) {
   for (const auto& q : result.plan.quantities) json["derived"][q.key] = json_number(q.value);
   for (const auto& s : result.stiffnesses)
     json["mean_stiffness_N_per_m"][s.source] = {
-        {"value", json_number(s.value)}, {"error_relative", json_number(s.error_relative)}, {"taken", s.taken}};
+        {"value", json_number(s.value)}, {"error_relative", json_number(s.error_relative)}, {"applied", s.taken}};
   if (const auto& computed = result.mesh.computed) {
     auto& item =
         json["pinion_wheel"] = {{"model", computed->model.fidelity},
@@ -115,7 +113,7 @@ Json pair_summary(const PairRunResult& result) {
     if (!row.failure.empty()) continue;
     const auto motion = [](const SpeedRow::Motion& m) {
       return Json{{"acceleration_m_per_s2", m.acceleration},
-                  {"force_range_N", m.peak_to_peak_force},
+                  {"force_peak_to_peak_N", m.peak_to_peak_force},
                   {"transmission_error_m", m.peak_to_peak_te}};
     };
     json["causes_over_speed"].push_back({{"pinion_speed_rpm", row.pinion_speed / units::rpm},

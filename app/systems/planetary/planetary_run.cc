@@ -43,26 +43,24 @@ std::optional<CouplingEffect> effect_of_coupling(const Scene& scene, dynamics::P
 FigureSet response_figures(const StageResponse& response) {
   const auto& f = response.figures;
   auto set = dynamics::figures(f);
-  const auto add_parts = [&](const std::string& mesh, const dynamics::MeshKindResult& kind, const MeshKindErrors& e) {
-    set.set(mesh + "_load_sharing_averaged", kind.load_sharing.averaged, e.averaged);
-    set.set(mesh + "_load_sharing_instantaneous", kind.load_sharing.instantaneous, e.instantaneous);
-    set.set(mesh + "_load_sharing_quasi_static", kind.load_sharing.quasi_static, e.quasi_static);
-    const auto worst = [&](const char* name, Figure dynamics::BranchResult::*factor,
-                           const std::vector<ErrorParts>& parts) {
-      const auto n = dynamics::worst_branch(kind.branches, factor);
-      set.set(mesh + name, kind.branches[n].*factor, parts.at(n));
-    };
-    worst("_peak_factor", &dynamics::BranchResult::peak_factor, e.peak_factor);
-    worst("_dynamic_factor", &dynamics::BranchResult::dynamic_factor, e.dynamic_factor);
-  };
-  add_parts("sun_planet", f.sun_planet, response.errors.sun_planet);
-  add_parts("ring_planet", f.ring_planet, response.errors.ring_planet);
+  const auto parts = [&](const std::string& key) { return response.errors.find(key)->parts; };
+  for (const auto& kind : dynamics::stage_mesh_kinds) {
+    const auto& [sharing, branches] = f.*kind.results;
+    for (const auto& quantity : dynamics::sharing_quantities) {
+      const auto key = dynamics::sharing_key(kind.name, quantity);
+      set.set(key, sharing.*quantity.value, parts(key));
+    }
+    for (const auto& quantity : dynamics::branch_quantities) {
+      const auto worst = dynamics::worst_branch(branches, quantity.value);
+      set.set(fmt::format("{}_{}", kind.name, quantity.name), branches[worst].*quantity.value,
+              parts(dynamics::branch_key(kind.name, worst, quantity)));
+    }
+  }
   if (!f.shafts.empty()) {
-    const auto worst_one = dynamics::worst_shaft(f.shafts);
-    const auto& shaft = f.shafts[worst_one];
+    const auto& shaft = f.shafts[dynamics::worst_shaft(f.shafts)];
     if (shaft.nominal_torque > 0)
       set.set(dynamics::shaft_key, shaft.torque_factor(),
-              (1 / shaft.nominal_torque) * response.errors.shafts[worst_one]);
+              (1 / shaft.nominal_torque) * parts(dynamics::torque_key(shaft)));
   }
   set.add(frequency_figures(response.modes));
   return set;

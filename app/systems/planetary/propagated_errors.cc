@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "core/log.h"
 #include "core/not_known.h"
+#include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
 
@@ -18,37 +19,10 @@ namespace {
 using dynamics::DynamicResponse;
 using dynamics::MeshKindResult;
 
-/// Calls visit(key, figure, figure's errors) for every figure of one kind of mesh.
-template <class Kind, class Errors, class Visit>
-void for_each_figure(const std::string& mesh, Kind& kind, Errors& errors, Visit visit) {
-  visit(mesh + "_instantaneous", kind.load_sharing.instantaneous, errors.instantaneous);
-  visit(mesh + "_averaged", kind.load_sharing.averaged, errors.averaged);
-  visit(mesh + "_quasi_static", kind.load_sharing.quasi_static, errors.quasi_static);
-  errors.peak_factor.resize(kind.branches.size());
-  errors.dynamic_factor.resize(kind.branches.size());
-  for (std::size_t n = 0; n < kind.branches.size(); ++n) {
-    auto& branch = kind.branches[n];
-    visit(fmt::format("{}{}_peak_factor", mesh, n + 1), branch.peak_factor, errors.peak_factor[n]);
-    visit(fmt::format("{}{}_dynamic_factor", mesh, n + 1), branch.dynamic_factor, errors.dynamic_factor[n]);
-  }
-}
-
-template <class Response, class Errors, class Visit>
-void for_each_figure(Response& response, Errors& errors, Visit visit) {
-  for_each_figure("sun_planet", response.sun_planet, errors.sun_planet, visit);
-  for_each_figure("ring_planet", response.ring_planet, errors.ring_planet, visit);
-  errors.shafts.resize(response.shafts.size());
-  for (std::size_t i = 0; i < response.shafts.size(); ++i)
-    visit(response.shafts[i].name + "_shaft_torque", response.shafts[i].largest_torque, errors.shafts[i]);
-}
-
-/// The figures that carry errors, every planet's by itself.
 dynamics::Evaluation evaluation_of(const DynamicResponse& response) {
   dynamics::Evaluation evaluation{.figures = {}, .outcome = static_cast<const dynamics::SteadyOutcome&>(response)};
-  ResponseErrors unused;
-  for_each_figure(response, unused, [&](const std::string& key, const Figure& figure, const ErrorParts&) {
-    evaluation.figures.set(key, figure);
-  });
+  dynamics::for_each_figure(response,
+                            [&](const std::string& key, const Figure& figure) { evaluation.figures.set(key, figure); });
   return evaluation;
 }
 
@@ -86,8 +60,8 @@ void add_changes(const dynamics::PlanetaryStage& here, const std::vector<dynamic
 
 }  // namespace
 
-ResponseErrors propagated_errors(const DynamicResponse& nominal, const dynamics::SimulationOptions& options,
-                                 const StageTables& tables) {
+FigureSet propagated_errors(const DynamicResponse& nominal, const dynamics::SimulationOptions& options,
+                            const StageTables& tables) {
   const auto way = dynamics::comparison_options(nominal, options);
   auto found = with_table_errors(
       evaluation_of(nominal), {&tables.sun_mesh, &tables.ring_mesh},
@@ -100,16 +74,12 @@ ResponseErrors propagated_errors(const DynamicResponse& nominal, const dynamics:
   if (on_back_flanks(nominal.ring_planet, tables.ring_mesh))
     others.push_back(with_moved_supports(stage, tables.ring_mesh.table.positions()));
   add_changes(stage, others, way, found);
-  ResponseErrors errors;
-  for_each_figure(nominal, errors,
-                  [&](const std::string& key, const Figure&, ErrorParts& parts) { parts = found.find(key)->parts; });
-  return errors;
+  return found;
 }
 
-void set_errors(const ResponseErrors& errors, DynamicResponse& response) {
-  auto parts_of = errors;
-  for_each_figure(response, parts_of,
-                  [](const std::string&, Figure& figure, const ErrorParts& parts) { figure.error = parts.total(); });
+void set_errors(const FigureSet& errors, DynamicResponse& response) {
+  dynamics::for_each_figure(
+      response, [&](const std::string& key, Figure& figure) { figure.error = errors.find(key)->parts.total(); });
 }
 
 }  // namespace annulus::app

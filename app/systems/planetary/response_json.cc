@@ -2,29 +2,28 @@
 #include "app/systems/planetary/stage_response.h"
 #include "core/json.h"
 #include "core/units.h"
+#include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
 
 namespace {
 
-Json to_json_value(const Figure& f, const ErrorParts& parts) {
-  return {{"value", json_number(f.value)}, {"error", json_number(f.error)}, {"error_parts", to_json(parts)}};
-}
-
-Json kind_json(const dynamics::MeshKindResult& kind, const MeshKindErrors& errors) {
+Json kind_json(const StageResponse& response, const dynamics::StageMeshKind& kind) {
+  const auto& [sharing, branches] = response.figures.*kind.results;
+  const auto parts = [&](const std::string& key) { return response.errors.find(key)->parts; };
   Json json;
-  json["load_sharing"] = {{"instantaneous", to_json_value(kind.load_sharing.instantaneous, errors.instantaneous)},
-                          {"averaged", to_json_value(kind.load_sharing.averaged, errors.averaged)},
-                          {"quasi_static", to_json_value(kind.load_sharing.quasi_static, errors.quasi_static)}};
-  for (std::size_t n = 0; n < kind.branches.size(); ++n) {
-    const auto& b = kind.branches[n];
-    json["branches"].push_back({{"peak_factor", to_json_value(b.peak_factor, errors.peak_factor[n])},
-                                {"dynamic_factor", to_json_value(b.dynamic_factor, errors.dynamic_factor[n])},
-                                {"smallest_factor", json_number(b.smallest_factor)},
-                                {"mean_force_N", json_number(b.mean_force)},
-                                {"contact_loss", json_number(b.contact_loss.value)},
-                                {"contact_loss_error", json_number(b.contact_loss.error)},
-                                {"back_flanks", json_number(b.back_flanks)}});
+  for (const auto& quantity : dynamics::sharing_quantities)
+    json["load_sharing"][quantity.name] =
+        to_json(sharing.*quantity.value, parts(dynamics::sharing_key(kind.name, quantity)));
+  for (std::size_t n = 0; n < branches.size(); ++n) {
+    const auto& branch = branches[n];
+    Json item;
+    for (const auto& quantity : dynamics::branch_quantities)
+      item[quantity.name] = to_json(branch.*quantity.value, parts(dynamics::branch_key(kind.name, n, quantity)));
+    item["smallest_factor"] = json_number(branch.smallest_factor);
+    item["mean_force_N"] = json_number(branch.mean_force);
+    item["back_flanks"] = json_number(branch.back_flanks);
+    json["branches"].push_back(std::move(item));
   }
   return json;
 }
@@ -88,12 +87,11 @@ std::string response_json(const StageResponse& response, const std::string& id) 
                {"confirmed", f.confirmed},
                {"periodic_solution", periodic_json(f.periodic)},
                {"integrator_reason", f.integrator ? Json(f.integrator->reason) : Json(nullptr)},
-               {"sun_planet", kind_json(f.sun_planet, response.errors.sun_planet)},
-               {"ring_planet", kind_json(f.ring_planet, response.errors.ring_planet)},
                {"energy_balance_relative", json_number(f.energy.relative)},
                {"force_balance_relative", json_number(f.force_balance_relative)},
                {"steps", f.statistics.steps},
                {"contact_events", f.statistics.contact_events}};
+  for (const auto& kind : dynamics::stage_mesh_kinds) json[kind.name] = kind_json(response, kind);
   json["modes"] = modes_json(response.modes);
   json["motion"] = motion_json(response.motion);
   return json.dump(2) + "\n";

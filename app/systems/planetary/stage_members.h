@@ -53,8 +53,6 @@ ANNULUS_MEMBERS(dynamics::AssemblySharing, torque_shares, factors, quantiles, co
 ANNULUS_MEMBERS(dynamics::StageTolerances, planet_pin_position, sun_eccentricity, planet_eccentricity,
                 ring_eccentricity, within);
 
-ANNULUS_MEMBERS(app::MeshKindErrors, instantaneous, averaged, quasi_static, peak_factor, dynamic_factor);
-ANNULUS_MEMBERS(app::ResponseErrors, sun_planet, ring_planet, shafts);
 ANNULUS_MEMBERS(app::StageModes::Mode, frequency, frequency_error, error_parts, kind, damped_frequency, damping_ratio,
                 strain, kinetic);
 ANNULUS_MEMBERS(app::StageModes, groups, bodies, list, shapes, campbell, critical_speeds);

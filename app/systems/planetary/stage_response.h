@@ -20,7 +20,7 @@ namespace annulus::app {
 /// The lumped model's answer for one ring.
 struct StageResponse {
   dynamics::DynamicResponse figures;  ///< all but the time series; errors with all their parts
-  ResponseErrors errors;              ///< the parts of the errors
+  FigureSet errors;                   ///< results of meshes and shafts with the parts of their errors
   StageModes modes;
   StageMotion motion;
   Csv load_sharing;  ///< per mesh cycle: N F / sum F of every branch, forces averaged over the cycle

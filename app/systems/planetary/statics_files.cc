@@ -128,10 +128,6 @@ Csv face_csv(const RingStatics& ring, const MeshKind& kind) {
   return csv;
 }
 
-Json figure_json(const Figure& figure) {
-  return {{"value", json_number(figure.value)}, {"error", json_number(figure.error)}};
-}
-
 /// Null where the forces never repeat.
 Json period_json(const RingStatics& ring) {
   if (ring.period >= dynamics::PlanetaryStage::never_repeats) return nullptr;
@@ -153,7 +149,7 @@ Json ring_json(const RingStatics& ring) {
   Json json;
   for (const auto& spec : static_figures())
     if (const auto* entry = ring.figures.find(spec.key)) {
-      auto& json_entry = json["results"][entry->key] = figure_json(entry->figure);
+      auto& json_entry = json["results"][entry->key] = to_json(entry->figure);
       json_entry["error_parts"] = to_json(entry->parts);
     }
   json["mean_mesh_force_N"] = ring.mean_mesh_force;
@@ -166,15 +162,15 @@ Json ring_json(const RingStatics& ring) {
   for (const auto& b : ring.bearings) {
     Json bearing = {{"name", b.name},
                     {"body", b.body},
-                    {"radial_force_max_N", figure_json(b.radial)},
+                    {"radial_force_max_N", to_json(b.radial)},
                     {"radial_force_mean_N", b.mean_radial},
-                    {"axial_force_max_N", figure_json(b.axial)},
-                    {"moment_max_Nm", figure_json(b.moment)}};
-    if (b.element) bearing["rolling_element_force_max_N"] = figure_json(*b.element);
+                    {"axial_force_max_N", to_json(b.axial)},
+                    {"moment_max_Nm", to_json(b.moment)}};
+    if (b.element) bearing["rolling_element_force_max_N"] = to_json(*b.element);
     json["bearings"].push_back(std::move(bearing));
   }
   for (std::size_t b = 0; b < ring.tilt.size(); ++b)
-    json["tilt_max_rad"][ring.turn.body_names[b]] = figure_json(ring.tilt[b]);
+    json["tilt_max_rad"][ring.turn.body_names[b]] = to_json(ring.tilt[b]);
   return json;
 }
 

@@ -17,6 +17,7 @@
 #include "app/systems/shared/mesh_names.h"
 #include "core/json.h"
 #include "core/units.h"
+#include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
 
@@ -27,10 +28,6 @@ Json estimate_json(const Estimate& e) {
           {"error_relative", json_number(e.error_relative)},
           {"error_parts_relative", to_json(e.parts)}};
 }
-Json figure_json(const Figure& f, const ErrorParts& e) {
-  return {{"value", json_number(f.value)}, {"error", json_number(f.error)}, {"error_parts", to_json(e)}};
-}
-
 Json peak_json(const Peak& peak, double unit) {
   return {{"value", json_number(peak.value * unit)},
           {"mesh_phase", peak.at.mesh_phase},
@@ -56,36 +53,27 @@ Json mesh_json(const MeshResult& mesh) {
   return json;
 }
 
-Json sharing_json(const dynamics::LoadSharing& s, const MeshKindErrors& e) {
-  return {{"instantaneous", figure_json(s.instantaneous, e.instantaneous)},
-          {"averaged", figure_json(s.averaged, e.averaged)},
-          {"quasi_static", figure_json(s.quasi_static, e.quasi_static)}};
-}
-
-void add_branches(Json& ring, const std::string& mesh, const dynamics::MeshKindResult& kind,
-                  const MeshKindErrors& errors) {
-  const auto factors = [&](const char* name, Figure dynamics::BranchResult::*factor,
-                           const std::vector<ErrorParts>& parts_of) {
+/// Load sharing, and the results of every mesh as lists over the planets.
+void add_mesh_results(Json& ring, const StageResponse& response, const dynamics::StageMeshKind& kind) {
+  const auto& [sharing, branches] = response.figures.*kind.results;
+  const std::string mesh = kind.name;
+  for (const auto& quantity : dynamics::sharing_quantities)
+    ring["load_sharing"][mesh][quantity.name] =
+        to_json(sharing.*quantity.value, response.errors.find(dynamics::sharing_key(mesh, quantity))->parts);
+  for (const auto& quantity : dynamics::branch_quantities) {
     auto value = Json::array(), error = value, parts = value;
-    for (const auto& b : kind.branches) {
-      value.push_back(json_number((b.*factor).value));
-      error.push_back(json_number((b.*factor).error));
+    for (std::size_t n = 0; n < branches.size(); ++n) {
+      const auto& figure = branches[n].*quantity.value;
+      value.push_back(json_number(figure.value));
+      error.push_back(json_number(figure.error));
+      parts.push_back(to_json(response.errors.find(dynamics::branch_key(mesh, n, quantity))->parts));
     }
-    for (const auto& e : parts_of) parts.push_back(to_json(e));
-    ring[name][mesh] = std::move(value);
-    ring[fmt::format("{}_error", name)][mesh] = std::move(error);
-    ring[fmt::format("{}_error_parts", name)][mesh] = std::move(parts);
-  };
-  factors("dynamic_factor", &dynamics::BranchResult::dynamic_factor, errors.dynamic_factor);
-  factors("peak_factor", &dynamics::BranchResult::peak_factor, errors.peak_factor);
-  auto loss = Json::array(), loss_error = loss, back = loss;
-  for (const auto& b : kind.branches) {
-    loss.push_back(json_number(b.contact_loss.value));
-    loss_error.push_back(json_number(b.contact_loss.error));
-    back.push_back(json_number(b.back_flanks));
+    ring[quantity.name][mesh] = std::move(value);
+    ring[fmt::format("{}_error", quantity.name)][mesh] = std::move(error);
+    ring[fmt::format("{}_error_parts", quantity.name)][mesh] = std::move(parts);
   }
-  ring["contact_loss"][mesh] = std::move(loss);
-  ring["contact_loss_error"][mesh] = std::move(loss_error);
+  auto back = Json::array();
+  for (const auto& branch : branches) back.push_back(json_number(branch.back_flanks));
   ring["back_flanks"][mesh] = std::move(back);
 }
 
@@ -123,11 +111,7 @@ Json ring_json(const RunResult& result, std::size_t number) {
   if (ring.tolerances) json["load_sharing_of_assemblies"] = to_json(*ring.tolerances);
   if (!ring.response) return json;
   const auto& f = ring.response->figures;
-  const auto& errors = ring.response->errors;
-  json["load_sharing"] = {{"sun_planet", sharing_json(f.sun_planet.load_sharing, errors.sun_planet)},
-                          {"ring_planet", sharing_json(f.ring_planet.load_sharing, errors.ring_planet)}};
-  add_branches(json, sun_planet, f.sun_planet, errors.sun_planet);
-  add_branches(json, ring_planet, f.ring_planet, errors.ring_planet);
+  for (const auto& kind : dynamics::stage_mesh_kinds) add_mesh_results(json, *ring.response, kind);
   json["natural_frequencies_Hz"] = Json::array();
   for (const auto& mode : ring.response->modes.list)
     json["natural_frequencies_Hz"].push_back({{"value", mode.frequency},

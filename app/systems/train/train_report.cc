@@ -88,17 +88,14 @@ Json train_summary(const SystemRun& run, const std::vector<WorkingPart>& parts) 
   Json json = Json::object();
   if (const auto* motion = motion_of(run)) {
     const auto& r = motion->response;
-    const auto figure = [](const Figure& f) {
-      return Json{{"value", json_number(f.value)}, {"error", json_number(f.error)}};
-    };
     for (const auto& mesh : r.meshes)
       json["meshes"].push_back({{"mesh", mesh.name},
                                 {"mesh_frequency_Hz", mesh.frequency},
                                 {"mean_force_N", json_number(mesh.mean_force)},
-                                {"largest_force_N", figure(mesh.largest_force)},
+                                {"largest_force_N", to_json(mesh.largest_force)},
                                 {"smallest_force_N", json_number(mesh.smallest_force)},
-                                {"dynamic_factor", figure(mesh.dynamic_factor)},
-                                {"contact_loss", figure(mesh.contact_loss)}});
+                                {"dynamic_factor", to_json(mesh.dynamic_factor)},
+                                {"contact_loss", to_json(mesh.contact_loss)}});
     json["shafts"] = to_json(r.shafts);
     for (std::size_t i = 0; i < parts.size(); ++i)
       if (const auto& space = motion->space[i]; !space.bearings.empty()) add_json(json["parts"][parts[i].name], space);

@@ -15,7 +15,7 @@
 namespace annulus::app {
 
 /// Sun and planet at their reference centre distance. Throws GeometryError, naming the gear, when they cannot exist or
-/// mesh, and InputError when neighbouring planets foul.
+/// mesh, and InputError when neighbouring planets touch.
 [[nodiscard]] geometry::GearPair sun_planet_pair(const Scene& scene);
 
 /// Everything that needs no solving: gears, arc teeth, the files of prescribed tables. Throws InputError.

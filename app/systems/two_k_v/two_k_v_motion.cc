@@ -21,13 +21,11 @@ constexpr double highest_crank_order = 200;  // several multiples of both mesh o
 Json meshes_json(const std::vector<dynamics::BranchResult>& meshes) {
   auto json = Json::array();
   for (const auto& m : meshes)
-    json.push_back({{"peak_factor", m.peak_factor.value},
-                    {"peak_factor_error", m.peak_factor.error},
-                    {"dynamic_factor", json_number(m.dynamic_factor.value)},
-                    {"dynamic_factor_error", json_number(m.dynamic_factor.error)},
+    json.push_back({{"peak_factor", to_json(m.peak_factor)},
+                    {"dynamic_factor", to_json(m.dynamic_factor)},
                     {"smallest_factor", m.smallest_factor},
                     {"mean_force_N", m.mean_force},
-                    {"contact_loss", m.contact_loss.value}});
+                    {"contact_loss", to_json(m.contact_loss)}});
   return json;
 }
 
@@ -45,8 +43,7 @@ std::string motion_json(const TwoKVMotion& m, const std::string& id) {
                {"torque_balance_relative", json_number(m.torque_balance_relative)},
                {"largest_multiplier", json_number(m.largest_multiplier)},
                {"energy_relative", json_number(m.energy_relative)},
-               {"error_peak_to_peak_rad", m.error_peak_to_peak.value},
-               {"error_peak_to_peak_error_rad", m.error_peak_to_peak.error},
+               {"error_peak_to_peak_rad", to_json(m.error_peak_to_peak)},
                {"error_mean_rad", m.error_mean},
                {"static_error_mean_rad", m.static_error_mean},
                {"static_error_peak_to_peak_rad", m.static_error_peak_to_peak},
@@ -56,7 +53,7 @@ std::string motion_json(const TwoKVMotion& m, const std::string& id) {
   json["arc_bearings"] = Json::array();
   for (const auto& b : m.arc_bearings)
     json["arc_bearings"].push_back(
-        {{"crank", b.crank}, {"arc_gear", b.arc_gear}, {"largest_N", b.largest}, {"mean_N", b.mean}});
+        {{"crank", b.crank}, {"arc_gear", b.arc_gear}, {"largest_N", to_json(b.largest)}, {"mean_N", b.mean}});
   return json.dump(1) + "\n";
 }
 
@@ -128,12 +125,6 @@ std::string factor_key(const char* mesh, std::size_t n, const char* factor) {
 
 bool TwoKVMotion::output_moves() const {
   return dynamics::output_moves(error_peak_to_peak.value, static_error_peak_to_peak, error_mean);
-}
-
-double TwoKVMotion::largest_bearing_force() const {
-  double largest = 0;
-  for (const auto& bearing : arc_bearings) largest = std::max(largest, bearing.largest);
-  return largest;
 }
 
 dynamics::Evaluation evaluation_of(const TwoKVModels& models, const dynamics::TwoKVResponse& response) {

@@ -41,7 +41,6 @@ struct TwoKVMotion {
   /// Whether the output moves against the input beyond rounding. Constant mesh stiffness moves nothing: the whole load
   /// winds the train up evenly, whatever the crank angle.
   [[nodiscard]] bool output_moves() const;
-  [[nodiscard]] double largest_bearing_force() const;
 };
 
 /// Its results, those of every mesh by itself besides: sun_planet1_dynamic_factor, arc_pins2_dynamic_factor, ...

@@ -51,26 +51,23 @@ Json vibration_json(const TwoKVVibration& v) {
 }
 
 Json motion_summary(const TwoKVMotion& m) {
-  Json json = {
-      {"motions", to_json(m.motions)},
-      {"steady", m.steady},
-      {"steady_difference", json_number(m.steady_difference)},
-      {"largest_multiplier", json_number(m.largest_multiplier)},
-      {"torque_balance_relative", json_number(m.torque_balance_relative)},
-      {"energy_balance_relative", json_number(m.energy_relative)},
-      {"output_error_peak_to_peak_rad", {{"value", m.error_peak_to_peak.value}, {"error", m.error_peak_to_peak.error}}},
-      {"output_error_mean_rad", m.error_mean},
-      {"output_error_quasi_static_rad", m.static_error_peak_to_peak}};
+  Json json = {{"motions", to_json(m.motions)},
+               {"steady", m.steady},
+               {"steady_difference", json_number(m.steady_difference)},
+               {"largest_multiplier", json_number(m.largest_multiplier)},
+               {"torque_balance_relative", json_number(m.torque_balance_relative)},
+               {"energy_balance_relative", json_number(m.energy_relative)},
+               {"output_error_peak_to_peak_rad", to_json(m.error_peak_to_peak)},
+               {"output_error_mean_rad", m.error_mean},
+               {"output_error_quasi_static_rad", m.static_error_peak_to_peak}};
   for (const bool arc : {false, true})
     for (const auto& mesh : arc ? m.arc_pins : m.sun_planet)
-      json[arc ? "arc_pins" : "sun_planet"].push_back(
-          {{"dynamic_factor",
-            {{"value", json_number(mesh.dynamic_factor.value)}, {"error", json_number(mesh.dynamic_factor.error)}}},
-           {"peak_factor", {{"value", mesh.peak_factor.value}, {"error", json_number(mesh.peak_factor.error)}}},
-           {"smallest_factor", mesh.smallest_factor},
-           {"contact_loss", mesh.contact_loss.value}});
+      json[arc ? "arc_pins" : "sun_planet"].push_back({{"dynamic_factor", to_json(mesh.dynamic_factor)},
+                                                       {"peak_factor", to_json(mesh.peak_factor)},
+                                                       {"smallest_factor", mesh.smallest_factor},
+                                                       {"contact_loss", mesh.contact_loss.value}});
   if (!m.shafts.empty()) json["shafts"] = to_json(m.shafts);
-  json["largest_arc_bearing_force_N"] = m.largest_bearing_force();
+  json["arc_bearing_force_N"] = to_json(m.results.figure("arc_bearing_force_N"));
   json["reused"] = m.reused;
   return json;
 }

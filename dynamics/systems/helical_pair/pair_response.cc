@@ -39,11 +39,20 @@ MotionRows motion_rows(const HelicalPair& pair, const LumpedSystem& system, cons
   return {te, te + dof_row(system, displacement, "pinion_y") - dof_row(system, displacement, "wheel_y")};
 }
 
-/// Both ends of a curve; `low` of its negative.
+/// Both ends of a curve, `low` of its negative, and its mean with what half of the samples change.
 struct Range {
   Peak high, low;
+  Figure mean;
   Range() = default;
-  explicit Range(const Row& values) : high(peak_of(values)), low(peak_of(-values)) {}
+  explicit Range(const Row& values)
+      : high(peak_of(values)),
+        low(peak_of(-values)),
+        mean{values.mean(), std::abs(values.mean() - mean_of_half(values))} {}
+
+ private:
+  static double mean_of_half(const Row& values) {
+    return values(Eigen::seqN(0, (values.size() + 1) / 2, Eigen::fix<2>)).mean();
+  }
 };
 
 /// Peaks of one window, in the order of PairAccelerations; y, z, u of the gears apart from the sum.
@@ -111,9 +120,11 @@ class PairEvidence {
   [[nodiscard]] Figure acceleration(Peak WindowPeaks::*peak, double share = 1) const {
     return of(peak, share * acceleration_per_force_);
   }
-  [[nodiscard]] MotionFigures motion(const Row& row, Range WindowPeaks::*range) const {
-    return {row.mean(),
-            of([=](const WindowPeaks& p) { return (p.*range).high + (p.*range).low; }, 2 * motion_per_force_),
+  [[nodiscard]] MotionFigures motion(Range WindowPeaks::*range) const {
+    auto mean = (best_.*range).mean;
+    for (const auto& other : others_) mean.error += std::abs(mean.value - (other.*range).mean.value);
+    mean.error += force_difference_ * motion_per_force_;
+    return {mean, of([=](const WindowPeaks& p) { return (p.*range).high + (p.*range).low; }, 2 * motion_per_force_),
             of([=](const WindowPeaks& p) { return higher((p.*range).high, (p.*range).low); }, motion_per_force_)};
   }
 
@@ -125,7 +136,7 @@ class PairEvidence {
 
 MotionFigures sampled_motion(const Row& row) {
   const Range range(row);
-  return {row.mean(), figure(range.high + range.low, {}), figure(higher(range.high, range.low), {})};
+  return {range.mean, figure(range.high + range.low, {}), figure(higher(range.high, range.low), {})};
 }
 
 PairMotions quasi_static_motions(const HelicalPair& pair, const LumpedSystem& system,
@@ -227,9 +238,7 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
   response.acceleration = {evidence.acceleration(&WindowPeaks::line_of_action),
                            evidence.acceleration(&WindowPeaks::axial), evidence.acceleration(&WindowPeaks::rotation),
                            evidence.acceleration(&WindowPeaks::tooth, 2)};
-  const MotionRows rows = motion_rows(pair, system, found.best.displacement);
-  response.dynamic = {evidence.motion(rows.transmission_error, &WindowPeaks::te),
-                      evidence.motion(rows.relative, &WindowPeaks::relative)};
+  response.dynamic = {evidence.motion(&WindowPeaks::te), evidence.motion(&WindowPeaks::relative)};
   response.quasi_static = quasi_static_motions(pair, system, options);
 
   response.shafts = shaft_results(system, pair.rotors, pair.shaft_ends(), found);
@@ -273,7 +282,7 @@ TransmissionErrorShares transmission_error_shares(const HelicalPair& pair, const
       {whole.dynamic.transmission_error.peak_to_peak.value, whole.quasi_static.transmission_error.peak_to_peak.value},
       ranges(with_errors_alone(pair)),
       ranges(with_stiffness_alone(pair)),
-      whole.quasi_static.transmission_error.mean};
+      whole.quasi_static.transmission_error.mean.value};
 }
 
 }  // namespace annulus::dynamics

@@ -24,8 +24,7 @@ struct PairAccelerations {
 
 /// A motion over the window, m.
 struct MotionFigures {
-  double mean = 0;
-  Figure peak_to_peak;
+  Figure mean, peak_to_peak;
   Figure largest;  ///< magnitude, the mean included
 };
 

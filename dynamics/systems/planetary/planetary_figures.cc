@@ -1,6 +1,6 @@
 #include "dynamics/systems/planetary/planetary_figures.h"
 
-#include <string>
+#include <fmt/format.h>
 
 #include "dynamics/figures/common_figures.h"
 
@@ -8,14 +8,9 @@ namespace annulus::dynamics {
 
 namespace {
 
-constexpr const char* sun_meshes = "sun_planet_";
-constexpr const char* ring_meshes = "ring_planet_";
-
-enum class MeshKind { sun, ring };
-
-void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, const std::string& meshes,
-                    MeshKind kind) {
-  const bool sun = kind == MeshKind::sun;
+void declare_meshes(std::vector<FigureSpec>& list, const StageMeshKind& kind, const std::string& meshes) {
+  const bool sun = kind.results == &DynamicResponse::sun_planet;
+  const std::string prefix = std::string(kind.name) + "_";
   const auto share = [&](const char* name, const std::string& title, const std::string& definition) {
     return FigureSpec{.key = prefix + "load_sharing_" + name,
                       .title = "Load sharing of the " + meshes + ", " + title,
@@ -43,14 +38,14 @@ void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, co
               {averaged, instantaneous,
                share("quasi_static", "quasi-static", "positions of N |F_n| / Σ|F|, without inertia and damping")});
   auto factors = force_factor_figures(prefix, "the " + meshes, "T_s / (N r_bs)");
-  factors.back().ordering = sun;
+  for (auto& factor : factors) factor.ordering = sun && factor.key == prefix + "peak_factor";
   list.insert(list.end(), factors.begin(), factors.end());
   list.push_back(contact_loss_figure(prefix + "contact_loss", "Time without contact, " + meshes, "worst planet, %",
                                      "largest over the planets of the fraction of the time in which no tooth touches"));
 }
 
 void declare_motion(std::vector<FigureSpec>& list, const std::string& prefix, const std::string& title,
-                    const std::string& definition) {
+                    const std::string& definition, const std::string& plotted = "") {
   const auto add = [&](const char* key, const char* axis, const char* reduced) {
     list.push_back({.key = prefix + key,
                     .title = title,
@@ -58,7 +53,8 @@ void declare_motion(std::vector<FigureSpec>& list, const std::string& prefix, co
                     .scale = 1e6,
                     .axis = axis,
                     .definition = reduced + definition,
-                    .effort = FigureEffort::motion});
+                    .effort = FigureEffort::motion,
+                    .plotted = plotted == key});
   };
   add("_rms_m", "rms, µm", "root mean square of ");
   add("_peak_to_peak_m", "peak to peak, µm", "peak-to-peak value of ");
@@ -66,32 +62,21 @@ void declare_motion(std::vector<FigureSpec>& list, const std::string& prefix, co
 
 std::vector<FigureSpec> planetary_specs() {
   std::vector<FigureSpec> list;
-  declare_meshes(list, sun_meshes, "sun meshes", MeshKind::sun);
-  declare_meshes(list, ring_meshes, "ring meshes", MeshKind::ring);
+  declare_meshes(list, stage_mesh_kinds[0], "sun meshes");
+  declare_meshes(list, stage_mesh_kinds[1], "ring meshes");
   list.push_back(shaft_figure());
   list.push_back(steady_figure());
   list.push_back(motions_figure());
-  declare_motion(list, "sun", "Motion of the sun", "the distance of the sun's centre from its mean position");
-  list[list.size() - 2].plotted = true;
+  declare_motion(list, "sun", "Motion of the sun", "the distance of the sun's centre from its mean position", "_rms_m");
   declare_motion(list, "sun_planet_deflection", "Deflection of the sun mesh",
                  "the deflection of the sun mesh with the largest motion");
   declare_motion(list, "ring_planet_deflection", "Deflection of the ring mesh",
-                 "the deflection of the ring mesh with the largest motion");
-  list.back().plotted = true;
+                 "the deflection of the ring mesh with the largest motion", "_peak_to_peak_m");
   const auto frequencies = frequency_specs(
       planetary_frequencies,
       "distinct undamped natural frequencies above zero, rising, at rest and with the mean mesh stiffness");
   list.insert(list.end(), frequencies.begin(), frequencies.end());
   return list;
-}
-
-void add(FigureSet& set, const std::string& prefix, const MeshKindResult& kind) {
-  set.set(prefix + "load_sharing_averaged", kind.load_sharing.averaged);
-  set.set(prefix + "load_sharing_instantaneous", kind.load_sharing.instantaneous);
-  set.set(prefix + "load_sharing_quasi_static", kind.load_sharing.quasi_static);
-  set.set(prefix + "dynamic_factor", largest(kind.branches, &BranchResult::dynamic_factor));
-  set.set(prefix + "peak_factor", largest(kind.branches, &BranchResult::peak_factor));
-  set.set(prefix + "contact_loss", largest(kind.branches, &BranchResult::contact_loss));
 }
 
 }  // namespace
@@ -101,10 +86,22 @@ const std::vector<FigureSpec>& planetary_figures() {
   return list;
 }
 
+std::string sharing_key(const std::string& kind, const SharingQuantity& quantity) {
+  return fmt::format("{}_load_sharing_{}", kind, quantity.name);
+}
+
+std::string branch_key(const std::string& kind, std::size_t planet, const BranchQuantity& quantity) {
+  return fmt::format("{}{}_{}", kind, planet + 1, quantity.name);
+}
+
 FigureSet figures(const DynamicResponse& response) {
   FigureSet set;
-  add(set, sun_meshes, response.sun_planet);
-  add(set, ring_meshes, response.ring_planet);
+  for (const auto& kind : stage_mesh_kinds) {
+    const auto& [sharing, branches] = response.*kind.results;
+    for (const auto& quantity : sharing_quantities) set.set(sharing_key(kind.name, quantity), sharing.*quantity.value);
+    for (const auto& quantity : branch_quantities)
+      set.set(fmt::format("{}_{}", kind.name, quantity.name), largest(branches, quantity.value));
+  }
   add_shafts(set, response.shafts);
   set.set("steady", response.steady ? 1 : 0);
   set.set(motions_key, number_of(response.motions));

@@ -160,8 +160,9 @@ FigureSet figures(const TwoKVStage& stage, const TwoKVResponse& r) {
     set.set(prefix + "contact_loss", largest(*kinds[k], &BranchResult::contact_loss));
   }
   add_shafts(set, r.shafts);
-  double bearing = 0;
-  for (const auto& b : r.arc_bearings) bearing = std::max(bearing, b.largest);
+  Figure bearing;
+  for (const auto& b : r.arc_bearings)
+    if (b.largest.value > bearing.value) bearing = b.largest;
   set.set("arc_bearing_force_N", bearing);
   return set;
 }

@@ -20,8 +20,9 @@ struct OutputError {
 
 /// One bearing of an arc gear on an eccentric, both directions together.
 struct ArcBearingResult {
-  int crank = 0, arc_gear = 0;   ///< from 0
-  double largest = 0, mean = 0;  ///< N, of the resultant
+  int crank = 0, arc_gear = 0;  ///< from 0
+  Figure largest;               ///< N, of the resultant
+  double mean = 0;              ///< N
 };
 
 struct TwoKVResponse : SteadyOutcome {

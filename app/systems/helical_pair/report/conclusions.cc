@@ -205,7 +205,7 @@ Blocks pair_verdict(const PairRunResult& result) {
         std::isfinite(f.dynamic_factor.value) ? fmt::format(" (dynamic factor K_V {})", measured(f.dynamic_factor, 1))
                                               : "",
         measured_in_unit(f.acceleration.tooth, shown_units::acceleration),
-        measured_in_unit(te.peak_to_peak, shown_units::length), text_in_unit(te.mean, shown_units::length),
+        measured_in_unit(te.peak_to_peak, shown_units::length), measured_in_unit(te.mean, shown_units::length),
         f.contact_loss.value > 0
             ? fmt::format(" The teeth lose contact for {:.2g} % of the time.", 100 * f.contact_loss.value)
             : std::string(" The teeth never lose contact.")));
