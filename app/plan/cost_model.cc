@@ -28,14 +28,11 @@ constexpr CostLaw laws[] = {
     {"coupling_plane", 0.06267, 1.06, 0, 0, not_known, 0},
     {"coupling_pins", 0.131, 0.432, 0, 0, not_known, 0},
     {"coupling_solid", 0.3249, 1.27, 0, 0, 199.2, 97.96},
-    {"response", 0, 1, 0, 0, 60.3, 27.85},
+    {"response", 0, 1, 0, 0, 61.89, 23.74},
     {"response_elastic", 0, 1, 0, 0, 75.01, 74.5},
     {"response_pins", 0, 1, 0, 0, 50.5, 383.1},
-    {"response_prescribed", 0, 1, 0, 0, 47.98, 39.53},
+    {"response_prescribed", 0, 1, 0, 0, 46.47, 56.36},
     {"response_balanced", 0, 1, 0, 0, 61.4, 227.6},
-    {"response_pair", 0, 1, 0, 0, 45.92, 48.55},
-    {"response_two_k_v", 0, 1, 0, 0, 63.44, 51.19},
-    {"response_two_k_v_prescribed", 0, 1, 0, 0, 46.16, 49.48},
 };
 
 /// Estimated relative error of a table: first ratio^(level - 1). Fitted to the same runs; levels are chosen by it.

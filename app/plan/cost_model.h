@@ -16,14 +16,11 @@ enum class Work {
   coupling_plane,
   coupling_pins,  ///< through a ring on pins or splines
   coupling_solid,
-  response,             ///< of a planetary stage on solved tables, confirmed by time integration
-  response_elastic,     ///< in which elastic modes of the ring may take part
+  response,             ///< on solved tables, confirmed by time integration
+  response_elastic,     ///< in which elastic modes of a ring may take part
   response_pins,        ///< the same with a ring on pins or splines
-  response_prescribed,  ///< without tables, whose errors would be propagated
+  response_prescribed,  ///< without tables whose errors would be propagated
   response_balanced,    ///< by harmonic balance alone
-  response_pair,
-  response_two_k_v,
-  response_two_k_v_prescribed,
 };
 
 /// The size of one step of a run and, after it, what it took.

@@ -18,7 +18,7 @@ namespace annulus {
 
 namespace {
 
-constexpr int works = static_cast<int>(app::Work::response_two_k_v_prescribed) + 1;
+constexpr int works = static_cast<int>(app::Work::response_balanced) + 1;
 
 /// A line of data/cost_runs.csv; 0 for what was not measured.
 struct MeasuredRun {

@@ -128,7 +128,7 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene) {
   const double study_s = of_study + course.balance_s + (asked ? *asked * per_cycle : 0);
   return {{.label = "dynamics of the pair",
            .variant = "",
-           .size = {.work = Work::response_pair,
+           .size = {.work = Work::response_prescribed,
                     .unknowns = (1 + shares) * std::min(period, asked.value_or(period)),
                     .motion_s = balances + cycles * per_cycle + draws * seconds_of_draw,
                     .held_MB = draws * MB_of_draw,

@@ -114,12 +114,6 @@ void save(const SolvedCoupling& solved, const std::string& id, const std::filesy
 
 }  // namespace
 
-double SolvedCoupling::largest() const {
-  double largest = 0;
-  for (const auto& matrix : coupling.compliance) largest = std::max(largest, matrix.cwiseAbs().maxCoeff());
-  return largest;
-}
-
 CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved) {
   constexpr const char* asked = "the scene asks for it (rim_coupling)";
   const double share = solved.largest() / solved.path_compliance;

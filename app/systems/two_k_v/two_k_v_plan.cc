@@ -149,7 +149,7 @@ std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
     constexpr double of_sample = 1.2e-3;  // stiffness, lost motion and modes at one crank angle
     return PlannedResponse{.label = label,
                            .variant = variant,
-                           .size = {.work = compared > 0 ? Work::response_two_k_v : Work::response_two_k_v_prescribed,
+                           .size = {.work = compared > 0 ? Work::response : Work::response_prescribed,
                                     .unknowns = static_cast<double>(period),
                                     .motion_s = other + once * (1 + compared)},
                            .study_s = variant.empty() ? once : 0,  // studies vary the scene as it is
