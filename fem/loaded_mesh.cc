@@ -61,6 +61,7 @@ class Refinement {
     result.worst_error_relative = errors_.worst;
     result.pinion_stress_error = errors_.pinion_stress;
     result.wheel_stress_error = errors_.wheel_stress;
+    result.face_load_factor_error = errors_.face_load_factor;
     return result;
   }
 

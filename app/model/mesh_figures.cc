@@ -103,7 +103,7 @@ FigureSet mesh_figures(const MeshResult& mesh) {
   set(figures, name + "_lte_mean_m", mesh.lte_mean());
   set(figures, name + "_lte_peak_to_peak_m", mesh.lte_peak_to_peak());
   if (mesh.contact_ratio > 0) figures.set(name + "_contact_ratio", {mesh.contact_ratio, 0});
-  if (const auto factor = mesh.peak("face_load_factor")) figures.set(name + "_face_load_factor", factor->value);
+  if (const auto factor = mesh.face_load_factor()) set(figures, name + "_face_load_factor", *factor);
   if (!mesh.model.computed()) return figures;
   for (const auto gear : {geometry::GearRole::pinion, geometry::GearRole::wheel})
     for (const auto& [key, title] : stress_names) {

@@ -52,6 +52,7 @@ std::map<std::string, double> facts_of(const MeshModel& model, const fem::Loaded
     if (std::any_of(solved.positions.begin(), solved.positions.end(),
                     [m = stress](const fem::LoadedPosition& p) { return (p.*m).has_value(); }))
       for (const auto& [name, value] : stress_columns) facts[stress_error_fact(body, name)] = errors->*value;
+  if (over_face_width(solved)) facts[face_load_factor_error] = solved.face_load_factor_error;
   if (solved.pin_stiffness > 0) facts["pin_stiffness_N_per_m"] = solved.pin_stiffness;
   return facts;
 }
@@ -220,8 +221,7 @@ double MeshResult::fact(const std::string& name) const {
   return found == facts.end() ? not_known : found->second;
 }
 
-std::optional<Estimate> MeshResult::largest_stress(const std::string& body, const std::string& kind) const {
-  const auto column = fmt::format("{}_{}_MPa", body, kind);
+std::optional<Estimate> MeshResult::largest(const std::string& column, double discretisation) const {
   const auto found = peak(column);
   if (!found || !std::isfinite(found->value) || found->value == 0) return std::nullopt;
   const double sign = found->value < 0 ? -1 : 1, size = std::abs(found->value);
@@ -230,12 +230,24 @@ std::optional<Estimate> MeshResult::largest_stress(const std::string& body, cons
   std::vector<double> values;  // in the order of the mesh cycles
   for (const auto& row : positions.rows)
     if (row[load] == table.loads()[nominal] && row[phase] < 1) values.push_back(sign * row[value]);
-  Estimate result{1e6 * found->value, 0, {}};
-  result.parts.discretisation = fact(stress_error_fact(body, kind)) / (1e6 * size);
+  Estimate result{found->value, 0, {}};
+  result.parts.discretisation = discretisation / size;
   result.parts.interpolation = beyond_the_highest(values) / size;
-  result.parts.model = mean_stiffness().parts.model;  // plane strain in a face of finite width changes both
   result.error_relative = result.parts.total();
   return result;
+}
+
+std::optional<Estimate> MeshResult::largest_stress(const std::string& body, const std::string& kind) const {
+  auto result = largest(fmt::format("{}_{}_MPa", body, kind), fact(stress_error_fact(body, kind)) / 1e6);
+  if (!result) return std::nullopt;
+  result->value *= 1e6;
+  result->parts.model = mean_stiffness().parts.model;  // plane strain in a face of finite width changes both
+  result->error_relative = result->parts.total();
+  return result;
+}
+
+std::optional<Estimate> MeshResult::face_load_factor() const {
+  return largest("face_load_factor", fact(face_load_factor_error));
 }
 
 std::optional<Peak> MeshResult::peak(const std::string& column) const {

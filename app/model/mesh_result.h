@@ -85,8 +85,15 @@ struct MeshResult {
   /// Pa: the largest over all positions at the nominal load of one of stress_columns, "root_tension". Nothing for a
   /// body without it.
   [[nodiscard]] std::optional<Estimate> largest_stress(const std::string& body, const std::string& kind) const;
+  /// K_Hβ: the largest over all positions at the nominal load. Nothing where the face is not divided.
+  [[nodiscard]] std::optional<Estimate> face_load_factor() const;
   /// Of a column of `positions`; nothing when there is no such column.
   [[nodiscard]] std::optional<Peak> peak(const std::string& column) const;
+
+ private:
+  /// The largest of a column of `positions` at the nominal load, with its error by `discretisation` (in its unit) and
+  /// by what lies between the positions.
+  [[nodiscard]] std::optional<Estimate> largest(const std::string& column, double discretisation) const;
 };
 
 /// The tables beside the positions, by the first part of their file names.

@@ -23,8 +23,6 @@ std::size_t most_pairs(const fem::LoadedMeshResult& solved) {
   return pairs;
 }
 
-bool over_face_width(const fem::LoadedMeshResult& solved) { return solved.slice_edges.size() > 2; }
-
 /// Visits the positions at the nominal load.
 template <class Visit>
 void at_nominal_load(const MeshModel& model, const fem::LoadedMeshResult& solved, Visit visit) {
@@ -90,6 +88,8 @@ std::vector<PositionColumn> position_columns(const MeshModel& model, const fem::
 }
 
 }  // namespace
+
+bool over_face_width(const fem::LoadedMeshResult& solved) { return solved.slice_edges.size() > 2; }
 
 Csv position_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   const auto list = position_columns(model, solved);

@@ -22,6 +22,10 @@ inline constexpr std::pair<const char*, double fem::BodyStress::*> stress_column
   return body + "_" + stress + "_error_Pa";
 }
 
+/// That of the largest face load factor; only of bodies that are divided along their face.
+inline constexpr const char* face_load_factor_error = "face_load_factor_error";
+[[nodiscard]] bool over_face_width(const fem::LoadedMeshResult& solved);
+
 /// lte_<mesh>.csv: every position and load, with load shares and invariants, and the face load factor and the largest
 /// stresses where they are known.
 [[nodiscard]] Csv position_table(const MeshModel& model, const fem::LoadedMeshResult& solved);

@@ -75,7 +75,9 @@ Blocks face_width(const NamedMeshes& meshes) {
     const auto worst = mesh->peak("face_load_factor");
     if (mesh->line_load.rows.empty() || !worst) continue;
     auto series = line_load_series(*mesh, worst->at);
-    series.label = fmt::format("{} (KHβ {})", name, to_text(worst->value, 4));
+    const auto factor = mesh->face_load_factor();
+    series.label = fmt::format("{} (KHβ {})", name,
+                               factor ? measured(factor->value, factor->value * factor->error_relative) : "–");
     series.colour = i;
     range.add(series.high);
     plot.series.push_back(std::move(series));

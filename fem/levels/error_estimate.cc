@@ -127,6 +127,20 @@ BodyStress largest_stress_errors(const LoadedMeshProblem& problem, const std::ve
   return result;
 }
 
+/// The largest difference between two levels of the face load factors at the middle load, where they are near the
+/// largest.
+double face_load_difference(const std::vector<LoadedPosition>& coarser, const std::vector<LoadedPosition>& positions,
+                            std::size_t loads) {
+  constexpr double near = 0.9;
+  double largest = 0, difference = not_known;
+  for (std::size_t i = loads / 2; i < positions.size(); i += loads)
+    largest = std::max(largest, positions[i].face_load_factor);
+  for (std::size_t i = loads / 2; i < positions.size(); i += loads)
+    if (coarser[i].entry.stiffness_secant != 0 && positions[i].face_load_factor >= near * largest)
+      difference = std::fmax(difference, std::abs(positions[i].face_load_factor - coarser[i].face_load_factor));
+  return difference;
+}
+
 }  // namespace
 
 LevelErrors estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, const OwnErrors& own,
@@ -149,6 +163,7 @@ LevelErrors estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSe
     result.*largest = largest_stress_errors(problem, coarser, positions, body, {most_left, notch});
     fill_stress_errors(problem, coarser, body, {most_left, notch}, positions);
   }
+  result.face_load_factor = most_left * face_load_difference(coarser, positions, loads);
   const double model = model_error(problem, settings.fidelity);
   const auto nearby = largest_nearby(difference, loads, problem.phases);
   for (std::size_t i = 0; i < positions.size(); ++i) {

@@ -23,6 +23,7 @@ struct LevelErrors {
   double worst = 0;       ///< estimated error, without what the model leaves out: what the wanted accuracy is about
   double difference = 0;  ///< between the levels
   BodyStress pinion_stress{}, wheel_stress{};  ///< Pa, of the largest stresses at that load; NaN where not known
+  double face_load_factor = 0;                 ///< of the largest one at that load; NaN where not known
 };
 
 /// Fills the errors of all positions of a level from those of the level before. `before`: the difference that the

@@ -157,6 +157,7 @@ struct LoadedMeshResult : SolvedBodies, SolveCost {
   /// Estimated errors by discretisation of the largest stresses over all positions at the middle load, Pa, positive.
   /// NaN where two levels did not have them.
   BodyStress pinion_stress_error{}, wheel_stress_error{};
+  double face_load_factor_error = 0;  ///< of the largest one, estimated in the same way
 };
 
 /// The stiffness table of solved positions, with closure and reciprocity. `positions`: [cycle][phase][load] over all

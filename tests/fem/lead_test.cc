@@ -141,6 +141,32 @@ BOOST_AUTO_TEST_CASE(misaligned_teeth_carry_like_a_row_of_springs) {
   record.plot({"Face load factor", "misalignment over load, um", "", {light, nominal}});
 }
 
+// What a level states of its largest face load factor covers the next level, which has 4/3 as many slices.
+BOOST_AUTO_TEST_CASE(the_error_of_the_face_load_factor_covers_a_finer_level) {
+  annulus::test::Verification record("Error of the face load factor", "the next level, on finer elements and slices");
+  for (const bool internal : {true, false}) {
+    auto problem = modified(internal, 10e-6, 0);
+    problem.misalignment = 30e-6;
+    annulus::fem::LoadedMeshSettings settings;
+    settings.fidelity = Fidelity::solid;
+    settings.level = 1;
+    const auto solved = solve_loaded_mesh(problem, settings);
+    settings.level = 2;
+    const auto finer = solve_loaded_mesh(problem, settings);
+    const auto largest = [&](const annulus::fem::LoadedMeshResult& result) {
+      double most = 0;
+      for (std::size_t i = problem.loads.size() / 2; i < result.positions.size(); i += problem.loads.size())
+        most = std::max(most, result.positions[i].face_load_factor);
+      return most;
+    };
+    BOOST_TEST(largest(solved) > 1.2);
+    BOOST_TEST(solved.face_load_factor_error > 0);
+    BOOST_TEST(solved.face_load_factor_error < 0.1 * largest(solved));
+    record.near(internal ? "ring mesh" : "sun mesh", "", largest(solved), largest(finer), solved.face_load_factor_error,
+                "the stated error");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_misalignment_of_the_other_sign_is_the_mirror_image) {
   annulus::test::Verification record("A misalignment and its mirror image", "symmetry");
   ContactBench bench(modified(true, 0, 0), 0, Fidelity::solid);

@@ -10,6 +10,7 @@
 #include "app/scene/key_checks.h"
 #include "app/systems/planetary/pitch_deviations.h"
 #include "app/systems/planetary/planetary_input.h"
+#include "app/systems/planetary/ring_structures.h"
 #include "app/systems/planetary/structure_tables.h"
 #include "app/systems/shared/sun_planet_input.h"
 #include "core/units.h"
@@ -42,11 +43,7 @@ void mirror(Scene& scene) {
     for (std::size_t n = 0; n < planets; ++n)
       angles.push_back(2 * std::numbers::pi * static_cast<double>(n) / static_cast<double>(planets));
   for (double& angle : angles) angle = reversed(angle);
-  for (auto& ring : planetary(scene).rings) {
-    for (double& angle : ring.pin_angles) angle = -angle;
-    for (auto* first : {&ring.first_pin_angle, &ring.first_spline_angle, &ring.first_bolt_angle})
-      if (*first) **first = -**first;
-  }
+  for (auto& ring : planetary(scene).rings) mirror_structure(ring);
   const auto swap_flanks = [](GearInput& gear) { std::swap(gear.leading_flank, gear.trailing_flank); };
   swap_flanks(sun_and_planets(scene).sun);
   swap_flanks(sun_and_planets(scene).planet);

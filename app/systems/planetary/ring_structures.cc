@@ -275,4 +275,10 @@ fem::RingStructure ring_structure(const RingInput& ring) {
   return clamped(ring);
 }
 
+void mirror_structure(RingInput& ring) {
+  for (double& angle : ring.pin_angles) angle = -angle;
+  for (auto* first : {&ring.first_pin_angle, &ring.first_spline_angle, &ring.first_bolt_angle})
+    if (*first) **first = -**first;
+}
+
 }  // namespace annulus::app

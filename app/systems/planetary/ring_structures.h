@@ -21,6 +21,9 @@ void check_structure(RingInput& ring, Scene& scene, std::vector<Problem>& proble
 /// Throws GeometryError where a structure does not fit into the rim of its ring.
 void check_structure_in_rim(const Scene& scene, const RingInput& input, const RingGeometry& ring);
 
+/// The structure in the mirror image of its ring (y -> -y): places of its supports count the other way round.
+void mirror_structure(RingInput& ring);
+
 /// The structure that the scene asks for, as the elastic models know it. Keys that a faulty scene leaves out count as
 /// zero: its words can be asked for while it is checked.
 [[nodiscard]] fem::RingStructure ring_structure(const RingInput& ring);

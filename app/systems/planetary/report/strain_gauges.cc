@@ -76,9 +76,10 @@ Section strain_gauges_section(const RunResult& result) {
     for (std::size_t g = 0; g < planetary(result.scene).strain_gauges.size(); ++g) {
       const auto factor = readings->face_load_factor(g);
       if (!factor) continue;
-      const auto contact = ring.mesh.peak("face_load_factor");
-      factors.rows.push_back({planetary(result.scene).strain_gauges[g].name, to_text(*factor, 4),
-                              contact ? to_text(contact->value, 4) : std::string("–")});
+      const auto contact = ring.mesh.face_load_factor();
+      factors.rows.push_back(
+          {planetary(result.scene).strain_gauges[g].name, to_text(*factor, 4),
+           contact ? measured(contact->value, contact->value * contact->error_relative) : std::string("–")});
     }
     if (!factors.rows.empty()) section.blocks += factors;
     if (const auto& response = ring.response; response && !response->gauge_spectrum.rows.empty())
