@@ -3,6 +3,7 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <chrono>
 #include <cmath>
@@ -171,6 +172,14 @@ BOOST_AUTO_TEST_CASE(threads_change_nothing_and_a_second_run_reads_back) {
   // Cached points are not computed again.
   const auto again = run_pair_text(text, folder.path() / "two", 2).reuse->counted(app::study_responses);
   BOOST_TEST(again.reused >= 6);
+  // The answer of the pair itself, with its files and the responses to other torques and speeds.
+  const auto before = read_file(folder.path() / "two" / "dynamics" / "transmission_error_shares.csv");
+  std::filesystem::remove_all(folder.path() / "two" / "dynamics");
+  const auto third = run_pair_text(text, folder.path() / "two", 2);
+  const auto reused = third.reuse->reused();
+  BOOST_TEST(std::count(reused.begin(), reused.end(), "dynamics of the pair") == 1);
+  BOOST_TEST(read_file(folder.path() / "two" / "dynamics" / "transmission_error_shares.csv") == before);
+  BOOST_TEST(third.speeds.size() == 4U);
   BOOST_TEST(again.computed == 0);
 }
 

@@ -5,10 +5,12 @@
 #include <cmath>
 
 #include "app/model/time_series.h"
+#include "app/results/cached_value.h"
 #include "app/results/content_id.h"
 #include "app/run/pipeline.h"
 #include "app/systems/helical_pair/pair_input.h"
 #include "app/systems/helical_pair/pair_lumped_model.h"
+#include "app/systems/helical_pair/pair_members.h"
 #include "app/systems/helical_pair/pair_space.h"
 #include "core/errors.h"
 #include "core/log.h"
@@ -158,47 +160,64 @@ void save_shares(const std::vector<ShareRow>& rows, const std::filesystem::path&
   csv.write(folder / "transmission_error_shares.csv");
 }
 
-}  // namespace
-
-std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshResult& mesh, const RunOptions& options) {
-  const auto folder = options.out / "dynamics";
-  std::filesystem::create_directories(folder);
-  const auto geometry = make_pair_geometry(scene);
-  const auto lumped = lumped_pair(scene, geometry, mesh, pair_errors(scene).amplitude);
+PairResponseResult response_of(const LumpedPair& lumped, const MeshResult& mesh,
+                               const dynamics::SimulationOptions& simulation, const RunOptions& options) {
+  const auto& scene = lumped.scene;
   const auto& pair = lumped.pair;
-  auto simulation = pair_simulation(scene);
-  simulation.other_motions.threads = options.threads;
-  auto result = std::make_unique<PairRunResponse>();
-  result->pair = pair;
-  auto& response = result->response;
+  PairResponseResult response;
   auto& f = response.figures = dynamics::evaluate_pair(pair, simulation);
   response.modes = dynamics::modes(pair);
   response.series = series_table(pair, f);
   response.spectrum = spectrum_table(f);
   response.space = space_results(dynamics::space_motion(pair, f.series), f.window_cycles);
   if (pair.space)
-    add_face_loads(response.space, moving_pair_face(scene, geometry, pair, mesh, options), options.threads);
+    add_face_loads(response.space, moving_pair_face(scene, lumped.geometry, pair, mesh, options), options.threads);
   f.series = {};
-  result->figures = propagated_pair_errors(lumped, simulation, f);
-  result->motions = f.motions;
-  result->shafts = f.shafts;
-  const auto id = lumped.id(simulation);
+  response.results = propagated_pair_errors(lumped, simulation, f);
+  const auto& asked = helical_pair(scene).transmission_error;
+  if (!asked) return response;
+  const auto fill = [&](auto& rows, const std::vector<double>& values, auto row_of) {
+    rows.resize(values.size());
+    for_each_task(values.size(), options.threads, [&](std::size_t i) { rows[i] = row_of(lumped, values[i]); });
+  };
+  fill(response.shares, asked->pinion_torques, share_row);
+  fill(response.speeds, asked->pinion_speeds, speed_row);
+  return response;
+}
+
+}  // namespace
+
+std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshResult& mesh, const RunOptions& options) {
+  const auto folder = options.out / "dynamics";
+  std::filesystem::create_directories(folder);
+  const auto lumped = lumped_pair(scene, make_pair_geometry(scene), mesh, pair_errors(scene).amplitude);
+  auto simulation = pair_simulation(scene);
+  simulation.other_motions.threads = options.threads;
+  const auto& asked = helical_pair(scene).transmission_error;
+  const auto id =
+      identity_of(lumped.id(simulation), mesh.model.id(), asked ? asked->pinion_torques : std::vector<double>(),
+                  asked ? asked->pinion_speeds : std::vector<double>());
+  auto [response, reused] = cached_value(options.store.get(), "pair_responses", id,
+                                         [&] { return response_of(lumped, mesh, simulation, options); });
+  note_reuse(options, "dynamics of the pair", source_of(reused));
   write_table(response.series, id, folder / "time_series.csv");
   write_table(response.spectrum, id, folder / "spectrum.csv");
   write_table(modes_table_of(response.modes), id, folder / "modes.csv");
   if (!response.space.bearings.empty()) write_table(response.space.table, id, folder / "bearings_in_space.csv");
   if (!response.space.faces.empty()) write_table(face_loads_table(response.space), id, folder / "face_loads.csv");
-  log::info(fmt::format("dynamics: {} mesh cycles integrated, {}", f.total_cycles,
-                        f.steady ? "periodic steady state" : "no periodic steady state"));
-  if (!helical_pair(scene).transmission_error) return result;
-  const auto fill = [&](auto& rows, const std::vector<double>& values, auto row_of) {
-    rows.resize(values.size());
-    for_each_task(values.size(), options.threads, [&](std::size_t i) { rows[i] = row_of(lumped, values[i]); });
-  };
-  fill(result->shares, helical_pair(scene).transmission_error->pinion_torques, share_row);
-  save_shares(result->shares, folder);
-  fill(result->speeds, helical_pair(scene).transmission_error->pinion_speeds, speed_row);
-  if (!result->speeds.empty()) save_speeds(result->speeds, folder);
+  if (asked) save_shares(response.shares, folder);
+  if (!response.speeds.empty()) save_speeds(response.speeds, folder);
+  const auto& f = response.figures;
+  log::info("dynamics: " + (reused ? "unchanged, reused"
+                                   : fmt::format("{} mesh cycles integrated, {}", f.total_cycles,
+                                                 f.steady ? "periodic steady state" : "no periodic steady state")));
+  auto result = std::make_unique<PairRunResponse>();
+  result->pair = lumped.pair;
+  result->figures = response.results;
+  result->motions = f.motions;
+  result->shafts = f.shafts;
+  result->reused = reused;
+  result->response = std::move(response);
   return result;
 }
 
@@ -212,8 +231,8 @@ PairRunResult::PairRunResult(const SystemRun& of)
   const auto& found = static_cast<const PairRunResponse&>(*of.responses.front());
   pair = &found.pair;
   response = &found.response;
-  shares = found.shares;
-  speeds = found.speeds;
+  shares = found.response.shares;
+  speeds = found.response.speeds;
 }
 
 PairRunResult run_pair(const Scene& scene, const RunOptions& options) {

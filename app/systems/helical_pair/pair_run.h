@@ -42,20 +42,21 @@ struct SpeedRow {
   std::string failure{};
 };
 
+/// The answer of a pair, as it is cached.
 struct PairResponseResult {
   dynamics::PairResponse figures;  ///< without the series; errors with all their parts
+  FigureSet results;               ///< by key, with the parts of their errors
   dynamics::Modes modes;
   Csv series;            ///< one row per sample: time, DOFs, force, transmission error
   Csv spectrum;          ///< of the mesh force
   SpaceResults space{};  ///< of a pair in space
+  std::vector<ShareRow> shares{};
+  std::vector<SpeedRow> speeds{};
 };
 
-/// The answer of a pair.
 struct PairRunResponse final : RunResponse {
   dynamics::HelicalPair pair;
   PairResponseResult response{};
-  std::vector<ShareRow> shares{};
-  std::vector<SpeedRow> speeds{};
 };
 
 struct PairRunResult : RunView {
