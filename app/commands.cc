@@ -56,6 +56,7 @@ RunOptions run_options(const Arguments& arguments, const Scene& scene) {
 }
 
 ResultFolder folder_of(const RunOptions& options, const Scene& scene) {
+  refuse_planned_study(options.out);
   return {options.out, {scene.file, scene.title}, {options.cache, user_cache()}};
 }
 
@@ -302,6 +303,10 @@ void compare_command(const Arguments& arguments) {
   check_out(page.parent_path().empty() ? "." : page.parent_path());
   for (const auto& file : {page, table})
     if (std::filesystem::is_directory(file)) throw InputError(fmt::format("--out {}: is a folder", file.string()));
+  if (std::filesystem::exists(table) && !is_comparison_table(table))
+    throw InputError(
+        fmt::format("--out {}: the table of the comparison would replace {}, which is none; give another name",
+                    page.string(), table.string()));
   const auto runs = read_finished_runs(arguments.folders);
   if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path());
   const auto pictures = page.stem().string() + "_pictures";
@@ -311,7 +316,7 @@ void compare_command(const Arguments& arguments) {
   folder.remove_earlier([](const std::string&) { return true; });
   write_file(table, comparison_csv(runs));
   if (arguments.json) {
-    fmt::print("{}\n", comparison_json(runs).dump(2));
+    fmt::print("{}\n", comparison_json(runs).dump(2, ' ', false, Json::error_handler_t::replace));
     return;
   }
   if (arguments.quiet) return;

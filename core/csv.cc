@@ -185,14 +185,28 @@ std::string Csv::column_names() const {
   return names;
 }
 
-std::string csv_line(std::string text) {
+namespace {
+
+std::string on_one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
   return text;
 }
 
+}  // namespace
+
+std::string csv_remark(const std::string& text) {
+  std::string line = on_one_line(text);
+  for (auto at = line.find(','); at != std::string::npos; at = line.find(',', at + 1)) {
+    const auto next = line.find_first_not_of(' ', at + 1);
+    if (next != std::string::npos && std::string_view("=+-@").find(line[next]) != std::string_view::npos)
+      line.insert(next, 1, '\'');
+  }
+  return line;
+}
+
 std::string csv_cell(const std::string& text) {
-  std::string cell = csv_line(text);
+  std::string cell = on_one_line(text);
   const auto first = cell.find_first_not_of(' ');
   if (first != std::string::npos && std::string_view("=+-@").find(cell[first]) != std::string_view::npos)
     cell.insert(cell.begin(), '\'');

@@ -46,8 +46,9 @@ struct Csv {
 /// become blanks. A text that spreadsheets would take for a formula (=, +, - or @ in front) gets an apostrophe in
 /// front.
 [[nodiscard]] std::string csv_cell(const std::string& text);
-/// A text for a `# key: value` line: control characters become blanks.
-[[nodiscard]] std::string csv_line(std::string text);
+/// A text for a `# key: value` line: control characters become blanks. Spreadsheets cut such a line at its commas; what
+/// would then be a formula gets an apostrophe in front.
+[[nodiscard]] std::string csv_remark(const std::string& text);
 /// 17 significant digits; nothing for what is not finite.
 [[nodiscard]] std::string csv_cell(double number);
 

@@ -113,6 +113,8 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
 
 std::optional<std::string> file_checksum(const std::filesystem::path& file) {
   constexpr std::streamsize block = 1 << 20;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
   std::vector<char> buffer(block);
@@ -124,6 +126,11 @@ std::optional<std::string> file_checksum(const std::filesystem::path& file) {
     bytes += count;
   }
   return fmt::format("{} bytes, {:08x}", bytes, sum);
+}
+
+std::string text_checksum(std::string_view text) {
+  return fmt::format("{} bytes, {:08x}", text.size(),
+                     ::crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
 }
 
 void remove_unfinished_files(const std::filesystem::path& folder) {

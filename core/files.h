@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/errors.h"
 
@@ -48,6 +49,8 @@ void write_file(const std::filesystem::path& file, const std::string& text);
 
 /// "123 bytes, 0a1b2c3d": size and CRC-32 of the content; nothing where there is no such file.
 [[nodiscard]] std::optional<std::string> file_checksum(const std::filesystem::path& file);
+/// The same of a text.
+[[nodiscard]] std::string text_checksum(std::string_view text);
 
 /// Removes what killed processes left unfinished in `folder` and below: files of none that still runs here, untouched
 /// for ten minutes (another machine may be at work in the same folder).

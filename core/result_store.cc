@@ -76,6 +76,9 @@ std::string content_of(const std::string& file, const std::string& name) {
   if (all.substr(0, line + 1) != head(name, plain, size, packed)) throw Error("its checksum is wrong");
   if (plain && size != packed.size()) throw Error("its size is wrong");
   if (plain) return std::string(packed);
+  // The size itself has no checksum; zlib packs at most a thousand to one.
+  constexpr std::size_t most = 1100;
+  if (size > most * (packed.size() + 1)) throw Error("its size is wrong");
   return uncompressed(packed, size);
 }
 
@@ -100,7 +103,8 @@ std::optional<std::string> content_in(const fs::path& folder, const std::string&
     fs::last_write_time(path, fs::file_time_type::clock::now(), none);
     return content;
   } catch (const Error& error) {
-    log::warn(fmt::format("{} is damaged: {}; computed again", path.string(), error.what()));
+    log::warn(fmt::format("{} is damaged: {}; it is left out and computed again where it is needed", path.string(),
+                          error.what()));
     fs::remove(path, none);
     return std::nullopt;
   }

@@ -9,11 +9,15 @@
 #include "app/results/content_id.h"
 #include "app/sections/report_parts.h"
 #include "core/csv.h"
+#include "core/files.h"
 #include "core/text_columns.h"
 
 namespace annulus::app {
 
 namespace {
+
+constexpr const char* csv_columns =
+    "result,unit,variant,value,error,difference_to_first,errors_together,against_first\n";
 
 /// A table with one column per variant.
 PageTable variant_table(const Comparison& comparison) {
@@ -151,10 +155,15 @@ Json comparison_json(const std::vector<ComparedRun>& runs) {
   return json;
 }
 
+bool is_comparison_table(const std::filesystem::path& file) {
+  const auto text = read_file(file);
+  return text.starts_with("# annulus_version: ") && text.find(csv_columns) != std::string::npos;
+}
+
 std::string comparison_csv(const std::vector<ComparedRun>& runs) {
   std::string text = fmt::format("# annulus_version: {}\n# kind: {}\n", version(), runs.front().kind);
-  for (const auto& run : runs) text += "# run: " + csv_line(run.name + " = " + run.folder.string()) + "\n";
-  text += "result,unit,variant,value,error,difference_to_first,errors_together,against_first\n";
+  for (const auto& run : runs) text += "# run: " + csv_remark(run.name + " = " + run.folder.string()) + "\n";
+  text += csv_columns;
   for (const auto& quantity : Comparison(runs).quantities) {
     const auto& spec = quantity.spec;
     const auto& shown = quantity.shown;

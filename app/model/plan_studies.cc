@@ -18,12 +18,25 @@ namespace {
 struct OwnTables {
   int count = 0;
   CostRun largest{};
+  bool counted = true;  ///< one by one, not estimated from some of the cases
 
-  void add(const Scene& scene, const StudyCase& study_case) {
+  void add(const Scene& scene, const StudyCase& study_case, int alike = 1) {
     for (const auto& mesh : tables_to_solve(scene, change_scene(scene, study_case))) {
-      ++count;
       const auto size = mesh_size(mesh);
-      if (count == 1 || processor_seconds(size) > processor_seconds(largest)) largest = size;
+      if (count == 0 || processor_seconds(size) > processor_seconds(largest)) largest = size;
+      count += alike;
+    }
+  }
+
+  /// Cases that follow each other smoothly. Choosing a model can take a tenth of a second for each, so that of many
+  /// only some are looked at; each stands for those that are nearest to it.
+  void add_some(const Scene& scene, const std::vector<StudyCase>& cases) {
+    constexpr std::size_t most = 8;
+    const std::size_t looked_at = std::min(most, cases.size());
+    counted = looked_at == cases.size();
+    for (std::size_t i = 0; i < looked_at; ++i) {
+      const auto begin = i * cases.size() / looked_at, end = (i + 1) * cases.size() / looked_at;
+      add(scene, cases[(begin + end - 1) / 2], static_cast<int>(end - begin));
     }
   }
 };
@@ -63,11 +76,12 @@ std::vector<StudyPlan> plan_studies(const GearSystem& system, const std::vector<
     const auto n = static_cast<long>(cases);
     list.push_back(
         {std::move(name), std::move(what), n * variants, tables.count, each * static_cast<double>(n), tables.largest});
+    list.back().tables_counted = tables.counted;
   };
   const auto add_cases = [&](std::string name, std::string what, const std::vector<StudyCase>& cases,
                              std::size_t besides = 0) {
     OwnTables tables;
-    for (const auto& study_case : cases) tables.add(scene, study_case);
+    tables.add_some(scene, cases);
     const bool searches = !cases.empty() && cases.front().other_motions;
     add(std::move(name), std::move(what), cases.size() + besides, searches ? searched : whole, tables);
   };
@@ -109,10 +123,12 @@ std::vector<StudyPlan> plan_studies(const GearSystem& system, const std::vector<
         static_cast<std::size_t>(sampling->samples), sample, {});
   if (scene.sensitivity) {
     const auto cases = sensitivity_cases(scene);
-    add_cases("[sensitivity]",
-              fmt::format("{} inputs, each divided and multiplied by {}", cases.size() / 2,
-                          to_text(scene.sensitivity->factor)),
-              cases, 1);
+    OwnTables tables;
+    for (const auto& study_case : cases) tables.add(scene, study_case);
+    add("[sensitivity]",
+        fmt::format("{} inputs, each divided and multiplied by {}", cases.size() / 2,
+                    to_text(scene.sensitivity->factor)),
+        cases.size() + 1, whole, tables);
   }
   if (scene.optimise) {
     const auto& o = *scene.optimise;

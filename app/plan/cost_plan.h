@@ -77,13 +77,14 @@ struct PlannedResponse {
 
 /// What one study will take.
 struct StudyPlan {
-  std::string name;         ///< "[[sweep]] 1", as in the scene
-  std::string description;  ///< "stage.sun_speed_rpm from 500 to 2000 r/min, 31 values"
-  long responses = 0;       ///< over all rings
-  int tables = 0;           ///< stiffness tables to be solved besides the nominal ones
-  double seconds = 0;       ///< rough processor time of the responses, tables not counted
-  CostRun table{};          ///< the most expensive of the tables
-  int tasks = 0;            ///< that threads can share; 0: as many as responses
+  std::string name;            ///< "[[sweep]] 1", as in the scene
+  std::string description;     ///< "stage.sun_speed_rpm from 500 to 2000 r/min, 31 values"
+  long responses = 0;          ///< over all rings
+  int tables = 0;              ///< stiffness tables to be solved besides the nominal ones
+  double seconds = 0;          ///< rough processor time of the responses, tables not counted
+  CostRun table{};             ///< the most expensive of the tables
+  int tasks = 0;               ///< that threads can share; 0: as many as responses
+  bool tables_counted = true;  ///< one by one, not estimated from some of the cases
 };
 
 /// Predicted cost of a run. `coupled`: whether a computed mesh is coupled with the others through its ring, which is a

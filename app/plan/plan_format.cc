@@ -91,7 +91,8 @@ std::string study_lines(const Plan& plan) {
     text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.description, s.responses,
                         plan.variants.empty() ? "" : fmt::format(" of all {}s", plan.variant_word),
                         duration_text(s.seconds));
-    text += s.tables ? fmt::format("; {} own stiffness tables\n", s.tables) : ", on the tables of the scene\n";
+    text += s.tables ? fmt::format("; {}{} own stiffness tables\n", s.tables_counted ? "" : "about ", s.tables)
+                     : ", on the tables of the scene\n";
   }
   return text;
 }

@@ -163,6 +163,8 @@ void ResultFolder::lock(int flags) {
     }
     struct stat opened {
     }, named{};
+    if (::fstat(file_, &opened) == 0 && !S_ISREG(opened.st_mode))
+      throw FileError(fmt::format("{}: is not a file; move it away, or {}", list().string(), other_folder));
     current = ::fstat(file_, &opened) == 0 && ::lstat(list().c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
               opened.st_dev == named.st_dev;
   }
@@ -207,7 +209,12 @@ void ResultFolder::check() const {
   }
   if (!text.starts_with(head)) throw not_ours(list());
   const Record record(text);
-  if (record.scene.empty() || record.scene == scene_) return;
+  if (record.scene.empty())
+    throw FileError(fmt::format(
+        "{}: is damaged: it names no scene, so that it is not known whose results are in its folder; {}, or "
+        "remove this one",
+        list().string(), other_folder));
+  if (record.scene == scene_) return;
   const bool renamed = record.title == title_ && !there(root_ / record.scene);
   if (renamed) return;
   throw FileError(fmt::format("{}: holds the results of {} (\"{}\"), not of {} (\"{}\"); {}, or remove this one",
@@ -245,6 +252,17 @@ std::string ResultFolder::name_of(const fs::path& file) const {
   return name.generic_string();
 }
 
+fs::path ResultFolder::link_above(const std::string& name) const {
+  auto place = folder_;
+  const fs::path path(name);
+  for (auto part = path.begin(); part != path.end() && std::next(part) != path.end(); ++part) {
+    place /= *part;
+    std::error_code none;
+    if (fs::is_symlink(fs::symlink_status(place, none))) return place;
+  }
+  return {};
+}
+
 bool ResultFolder::listed(const std::string& name) const {
   if (contains(written_, name) || contains(earlier_, name)) return true;
   return contains(Record(read_file(list())).written, name);  // by a forked process
@@ -254,6 +272,11 @@ void ResultFolder::before_write(const fs::path& file) {
   if (!begun_) return;
   const auto name = name_of(file);
   if (name.empty() || contains(written_, name)) return;
+  if (const auto link = link_above(name); !link.empty())
+    throw FileError(
+        fmt::format("cannot write {}: {} is a link to another folder, where annulus writes nothing; move it "
+                    "away, or {}",
+                    file.string(), link.string(), other_folder));
   if (there(file) && !listed(name))
     throw FileError(
         fmt::format("cannot write {}: a file of this name exists that annulus did not write; move it away, or {}",
@@ -265,7 +288,7 @@ void ResultFolder::before_write(const fs::path& file) {
 void ResultFolder::before_removal(const fs::path& file) {
   if (!begun_) return;
   const auto name = name_of(file);
-  if (name.empty() || listed(name)) return;
+  if (name.empty() || (listed(name) && link_above(name).empty())) return;
   throw FileError(
       fmt::format("cannot remove {}: annulus did not write it; move it away, or {}", file.string(), other_folder));
 }
@@ -286,6 +309,7 @@ void ResultFolder::remove_earlier(const Which& which) {
       left.push_back(name);
       continue;
     }
+    if (!link_above(name).empty()) continue;  // what is behind it is not ours
     std::error_code ignored;
     fs::remove(folder_ / name, ignored);
     for (auto parent = fs::path(name).parent_path(); !parent.empty(); parent = parent.parent_path())

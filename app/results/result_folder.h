@@ -57,6 +57,8 @@ class ResultFolder : FileGuard {
   /// Its name in the folder; empty for files elsewhere.
   [[nodiscard]] std::string name_of(const std::filesystem::path& file) const;
   [[nodiscard]] bool listed(const std::string& name) const;
+  /// The first link among the folders in which this name lies; empty: there is none.
+  [[nodiscard]] std::filesystem::path link_above(const std::string& name) const;
 
   std::filesystem::path folder_, root_;        ///< as given; absolute
   std::vector<std::filesystem::path> shared_;  ///< absolute

@@ -122,6 +122,13 @@ std::shared_ptr<SystemRun> own_results(const Scene& scene, const fs::path& folde
 
 }  // namespace
 
+void refuse_planned_study(const fs::path& out) {
+  if (fs::exists(out / points_name) && fs::exists(out / scene_name))
+    throw InputError(
+        fmt::format("--out {}: holds a planned study, whose results annulus study collect writes; use another folder",
+                    out.string()));
+}
+
 Worker worker_of(const std::string& text) {
   Worker worker;
   const char* end = text.data() + text.size();

@@ -25,6 +25,9 @@ namespace annulus::app {
 /// From "3/7". Throws InputError.
 [[nodiscard]] Worker worker_of(const std::string& text);
 
+/// Throws InputError where a run would write into the folder of a planned study.
+void refuse_planned_study(const std::filesystem::path& out);
+
 /// Writes scene, parts and scripts. Returns what to do next, for people. Throws InputError for a scene without studies.
 std::string plan_study(const Scene& scene, const std::filesystem::path& folder, int shards);
 

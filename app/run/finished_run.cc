@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "app/model/run_options.h"
 #include "app/results/content_id.h"
 #include "app/results/program_identity.h"
@@ -23,6 +21,24 @@ constexpr const char* missing = "missing";
 
 /// "missing" where there is no such file.
 std::string stamp(const std::filesystem::path& file) { return file_checksum(file).value_or(missing); }
+
+std::string text_of(const Json& note) { return note.dump(1) + "\n"; }
+
+/// The note in OUT, without its checksum. Throws Error telling what is wrong with it; nothing where there is none.
+std::optional<Json> read_note(const std::filesystem::path& out) {
+  const auto file = out / note_name;
+  std::error_code none;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(file, none))) return std::nullopt;
+  const auto damaged = [] { return Error(fmt::format("{} is damaged", note_name)); };
+  if (!std::filesystem::is_regular_file(file, none)) throw Error(fmt::format("{} is not a file", note_name));
+  auto note = Json::parse(read_file(file), nullptr, false);
+  const auto& checksum = member(note, "checksum");
+  if (!checksum.is_string() || !member(note, "files").is_object() || !member(note, "text").is_string()) throw damaged();
+  const std::string stated = checksum;
+  note.erase("checksum");
+  if (stated != text_checksum(text_of(note))) throw damaged();
+  return note;
+}
 
 }  // namespace
 
@@ -44,21 +60,20 @@ void keep_finished_run(const std::filesystem::path& out, const std::string& id, 
   Json note = {{"annulus_version", version()}, {"inputs_id", id}, {"text", text}};
   note["files"] = Json::object();
   for (const auto& file : files) note["files"][file] = stamp(out / file);
-  write_file(out / note_name, note.dump(1) + "\n");
+  note["checksum"] = text_checksum(text_of(note));
+  write_file(out / note_name, text_of(note));
 }
 
 std::optional<std::string> why_unfinished(const std::filesystem::path& out) {
-  std::ifstream stream(out / note_name);
-  if (!stream) return fmt::format("no {}", note_name);
-  const auto note = Json::parse(stream, nullptr, false);
   try {
-    if (note.is_discarded()) return fmt::format("{} is damaged", note_name);
-    for (const auto& [name, kept] : note.at("files").items()) {
+    const auto note = read_note(out);
+    if (!note) return fmt::format("no {}", note_name);
+    for (const auto& [name, kept] : note->at("files").items()) {
       const auto now = stamp(out / name);
       if (now != missing && now != kept) return name + " has changed since";
     }
-  } catch (const Json::exception&) {
-    return fmt::format("{} is damaged", note_name);
+  } catch (const Error& error) {
+    return error.what();
   }
   return std::nullopt;
 }
@@ -68,34 +83,43 @@ void refuse_altered_result(const std::filesystem::path& file) {
   constexpr int deepest = 8;  // folders below OUT
   auto out = whole.parent_path();
   for (int i = 0; i < deepest && !std::filesystem::exists(out / note_name); ++i) out = out.parent_path();
-  std::ifstream stream(out / note_name);
-  const auto note = Json::parse(stream, nullptr, false);
-  const auto name = whole.lexically_relative(out).generic_string();
-  if (!stream || !note.is_object() || !note.contains("files") || !note["files"].contains(name)) return;
-  if (note["files"][name] != stamp(whole))
+  const auto refuse = [&](const std::string& why) {
     throw InputError(
-        fmt::format("{}: has changed since the run that wrote it; run the scene again to restore it, or copy it to "
-                    "another folder to use it as a file of your own",
-                    file.string()));
+        fmt::format("{}: {}; run the scene again to restore it, or copy it to another folder to use it as a file of "
+                    "your own",
+                    file.string(), why));
+  };
+  std::optional<Json> note;
+  try {
+    note = read_note(out);
+  } catch (const Error& error) {
+    refuse(
+        fmt::format("{} in {}, so that it is not known whether it is as its run left it", error.what(), out.string()));
+  }
+  if (!note) return;
+  const auto& kept = member(note->at("files"), whole.lexically_relative(out).generic_string());
+  if (!kept.is_null() && kept != stamp(whole)) refuse("has changed since the run that wrote it");
 }
 
 std::optional<std::string> finished_run(const std::filesystem::path& out, const std::string& id) {
-  std::ifstream stream(out / note_name);
-  if (!stream) return std::nullopt;
-  const auto note = Json::parse(stream, nullptr, false);
+  const auto again = [&](const std::filesystem::path& file, const std::string& what) {
+    log::info(fmt::format("{} {} since the last run; it is written again", file.string(), what));
+  };
+  std::optional<Json> note;
   try {
-    if (note.is_discarded() || note.at("inputs_id") != id) return std::nullopt;
-    for (const auto& [name, kept] : note.at("files").items()) {
-      const auto now = stamp(out / name);
-      if (now == kept) continue;
-      log::info(fmt::format("{} {} since the last run; it is written again", (out / name).string(),
-                            now == missing ? "is missing" : "has changed"));
-      return std::nullopt;
-    }
-    return note.at("text").get<std::string>();
-  } catch (const Json::exception&) {
-    return std::nullopt;  // not a note of ours
+    note = read_note(out);
+  } catch (const Error&) {
+    again(out / note_name, "has changed");
+    return std::nullopt;
   }
+  if (!note || member(*note, "inputs_id") != id) return std::nullopt;
+  for (const auto& [name, kept] : note->at("files").items()) {
+    const auto now = stamp(out / name);
+    if (now == kept) continue;
+    again(out / name, now == missing ? "is missing" : "has changed");
+    return std::nullopt;
+  }
+  return note->at("text").get<std::string>();
 }
 
 }  // namespace annulus::app

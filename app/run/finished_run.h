@@ -15,7 +15,7 @@ struct Scene;
 [[nodiscard]] std::string run_id(const Scene& scene, const RunOptions& options);
 
 /// Notes in OUT/run.json that the run of this identity ended with `text`, and size and checksum of the files it left,
-/// named relative to OUT.
+/// named relative to OUT, and of the note itself.
 void keep_finished_run(const std::filesystem::path& out, const std::string& id, const std::string& text,
                        const std::vector<std::string>& files);
 

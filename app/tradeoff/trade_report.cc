@@ -210,7 +210,7 @@ Plot trade_plot(const VariantTrade& variant, TradePart part) {
 
 std::string trade_csv(const TradeOff& trade) {
   std::string text =
-      fmt::format("# annulus_version: {}\n# scene: {}\n", version(), csv_line(trade.scene.file.filename().string()));
+      fmt::format("# annulus_version: {}\n# scene: {}\n", version(), csv_remark(trade.scene.file.filename().string()));
   text += "variant,part,model,settings,finest,result,value,error,error_estimate,wall_s,processor_s,peak_MB,failure\n";
   for (const auto& variant : trade.variants) {
     for (const auto& p : variant.points) {

@@ -97,12 +97,14 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
   double unloaded = first.gap, moment = 0;
   const auto pairs = static_cast<Eigen::Index>(contacts.pairs.size());
   // Deflections with the line contacts as they are, not as linearised.
-  ComplementarityProblem exact = forces.problem;
-  exact.compliance.topLeftCorner(pairs, pairs) = contacts.compliance;
+  const auto& linear = forces.problem;
+  Eigen::VectorXd deflection = linear.compliance * solution.force, own_gap = linear.gap;
+  deflection.head(pairs) +=
+      (contacts.compliance - linear.compliance.topLeftCorner(pairs, pairs)) * solution.force.head(pairs);
   for (Eigen::Index i = 0; i < pairs; ++i) {
     const auto& pair = contacts.pairs[i];
     const double force = solution.force[i];
-    exact.gap[i] = pair.gap + forces.lines[i].approach;
+    own_gap[i] = pair.gap + forces.lines[i].approach;
     unloaded = std::min(unloaded, pair.gap);
     position.pair_share.push_back(force / load);
     position.pair_roll.push_back(pair.roll);
@@ -127,9 +129,8 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
 
   const double torque = load * problem_.pair.pinion().base_radius();
   position.force_balance_relative = std::abs(std::abs(moment) - torque) / torque;
-  const Eigen::VectorXd deflection = exact.compliance * solution.force;
-  const Eigen::VectorXd gap = deflection + exact.gap - exact.rigid * solution.rigid;
-  const double work_of_gaps = solution.force.dot(exact.gap), work = load * position.entry.lte;
+  const Eigen::VectorXd gap = deflection + own_gap - linear.rigid * solution.rigid;
+  const double work_of_gaps = solution.force.dot(own_gap), work = load * position.entry.lte;
   position.energy_balance_relative = std::abs(work - solution.force.dot(deflection) - work_of_gaps) / work;
   position.max_penetration = std::max(0.0, -gap.minCoeff());
   position.line_load = {load / problem_.face_width};

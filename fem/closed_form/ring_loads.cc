@@ -28,8 +28,8 @@ RingHarmonics on_circle(Circle circle, bool odd, int harmonics, const std::funct
 constexpr std::size_t restart = 64;
 
 /// Cosines of the multiples first, first + 1, ... of every angle (a column each), and below them the sines.
-Eigen::MatrixXd multiples(const std::vector<double>& angles, std::size_t first, std::size_t count) {
-  Eigen::MatrixXd table(2 * count, angles.size());
+void set_multiples(const std::vector<double>& angles, std::size_t first, std::size_t count, Eigen::MatrixXd& table) {
+  table.resize(static_cast<Eigen::Index>(2 * count), static_cast<Eigen::Index>(angles.size()));
   for (std::size_t j = 0; j < angles.size(); ++j) {
     const double step_c = std::cos(angles[j]), step_s = std::sin(angles[j]);
     double c = 0, s = 0;
@@ -45,7 +45,6 @@ Eigen::MatrixXd multiples(const std::vector<double>& angles, std::size_t first, 
       c = next;
     }
   }
-  return table;
 }
 
 }  // namespace
@@ -119,11 +118,13 @@ Eigen::MatrixXd HarmonicCoupling::operator()(const std::vector<double>& angles,
                                              const std::vector<double>& sources) const {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(angles.size(), sources.size());
   constexpr std::size_t block = 8 * restart;  // keeps the tables small
+  // New memory for every block would cost more than its sines.
+  Eigen::MatrixXd left, right;
   for (std::size_t first = 0; first < terms_.size(); first += block) {
     const std::size_t count = std::min(block, terms_.size() - first);
     const Eigen::Map<const Eigen::VectorXd> terms(terms_.data() + first, count);
-    const Eigen::MatrixXd left = multiples(angles, first, count);
-    Eigen::MatrixXd right = multiples(sources, first, count);
+    set_multiples(angles, first, count, left);
+    set_multiples(sources, first, count, right);
     // cos n(a - b) = cos na cos nb + sin na sin nb, sin n(a - b) = sin na cos nb - cos na sin nb
     if (sine_) {
       right.topRows(count).swap(right.bottomRows(count));

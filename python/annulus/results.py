@@ -1,6 +1,7 @@
 """Results of a run as tables with values, errors and units."""
 
 import json
+import zlib
 from pathlib import Path
 
 import pandas
@@ -65,21 +66,52 @@ def read_stiffness(file):
     return arrays
 
 
+def _checksum(file):
+    """Size and CRC-32 as run.json has them; "missing" where there is no such file."""
+    if not file.is_file():
+        return "missing"
+    data = file.read_bytes()
+    return f"{len(data)} bytes, {zlib.crc32(data):08x}"
+
+
+def _checksums_of_run(folder):
+    """Checksums of the files that a whole run left in a folder, by name."""
+    file = folder / "run.json"
+    if not file.is_file():
+        raise _program.InputError(f"{folder}: has no run.json, so that no run has ended there")
+    try:
+        note = json.loads(file.read_text(encoding="utf-8"))
+        stated, files = note.pop("checksum"), dict(note["files"])
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise _program.InputError(f"{file}: is damaged; run the scene again") from None
+    text = json.dumps(note, indent=1, ensure_ascii=False).encode() + b"\n"
+    if stated != f"{len(text)} bytes, {zlib.crc32(text):08x}":
+        raise _program.InputError(f"{file}: is damaged; run the scene again")
+    return files
+
+
 class Results:
     """A finished run. Its files stay as long as the object, or for good in a folder of one's own."""
 
     def __init__(self, folder, temporary=None):
         self.folder = Path(folder)
         self._temporary = temporary
-        try:
-            self.summary = json.loads((self.folder / "summary.json").read_text())
-        except FileNotFoundError:
-            raise _program.InputError(f"{folder}: has no summary.json, so that no run has ended there") from None
+        self._checksums = _checksums_of_run(self.folder)
+        self.summary = json.loads(self._checked("summary.json").read_text(encoding="utf-8"))
         #: Every result: symbol, value, error, unit and title; value_SI and error_SI in SI units. By variant and key.
         self.figures = self._figures()
 
+    def _checked(self, name):
+        """A file of the folder. Those of the run have to be as it left them."""
+        file = self.folder / name
+        if self._checksums.get(name, _checksum(file)) != _checksum(file):
+            raise _program.InputError(
+                f"{file}: is missing or has changed since the run that wrote it; run the scene again to restore it"
+            )
+        return file
+
     def _figures(self):
-        table = read_table(self.folder / "figures.csv")
+        table = read_table(self._checked("figures.csv"))
         table = table.rename(
             columns={"value": "value_SI", "error": "error_SI", "shown_value": "value", "shown_error": "error"}
         )
@@ -146,7 +178,7 @@ class Results:
         file = self.folder / (name + ".csv")
         if not file.is_file():
             raise KeyError(f"{name!r} is not a table of this run; Results.tables lists them")
-        return read_table(file)
+        return read_table(self._checked(name + ".csv"))
 
     def stiffness(self, mesh, variant=None):
         """Stiffness of a computed mesh ("sun_planet", "ring_planet", ...) as labelled arrays (read_stiffness)."""
@@ -156,7 +188,7 @@ class Results:
             found = [t for t in found if t.split("/")[0] == self.variant(variant)]
         if not found:
             raise KeyError(f"{mesh!r} has no stiffness table in this run; Results.tables lists all tables")
-        return read_stiffness(self.folder / (found[0] + ".csv"))
+        return read_stiffness(self._checked(found[0] + ".csv"))
 
     @property
     def report(self):

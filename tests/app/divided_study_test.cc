@@ -364,6 +364,12 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_said) {
   const auto taken = test::run_program(study.path(), "study plan scene.toml -o out");
   BOOST_TEST(taken.status == 2);
   BOOST_TEST(taken.err.find("holds the results of a run") != std::string::npos, taken.err);
+  for (const char* command : {"run", "tradeoff"}) {
+    const auto into = test::run_program(study.path(), std::string(command) + " scene.toml -o study");
+    BOOST_TEST(into.status == 2);
+    BOOST_TEST(into.err.find("holds a planned study") != std::string::npos, into.err);
+  }
+  BOOST_TEST(fs::exists(study.path() / "study/points.csv"));
   const auto nothing = test::run_program(study.path(), "study run . --shard 1/1");
   BOOST_TEST(nothing.status == 2);
   BOOST_TEST(nothing.err.find("holds no planned study") != std::string::npos, nothing.err);

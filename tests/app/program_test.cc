@@ -159,6 +159,9 @@ BOOST_AUTO_TEST_CASE(settings_change_a_scene) {
   BOOST_TEST(wrong.status == 2);
   BOOST_TEST(wrong.err.find("did you mean stage.power_kW?") != std::string::npos, wrong.err);
   BOOST_TEST(test::run_program(folder.path(), "check scene.toml --set stage.power_kW=-1").status == 2);
+  const auto two = test::run_program(folder.path(), "check scene.toml --set 'accuracy=0.05\nmodel=\"plane\"'");
+  BOOST_TEST(two.status == 2);
+  BOOST_TEST(two.err.find("has several keys") != std::string::npos, two.err);
   BOOST_TEST(test::run_program(folder.path(), "check scene.toml --set ring.held.teeth=162").status == 0);
   BOOST_TEST(test::run_program(folder.path(), "check scene.toml --set ring.other.teeth=162").status == 2);
   // One value of a list.

@@ -2,12 +2,14 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <boost/test/unit_test.hpp>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -259,6 +261,18 @@ BOOST_AUTO_TEST_CASE(links_are_never_written_through) {
   BOOST_TEST(read_file(folder.path() / "target") == "mine");
   BOOST_TEST(!fs::is_symlink(out / "report.html"));
   BOOST_TEST(!fs::is_symlink(out / "held/dynamics/modes.csv"));
+  // Folders behind a link: nothing is written or removed there.
+  const auto archived = folder.path() / "archive/dynamics/modes.csv";
+  fs::create_directories(archived.parent_path());
+  write_file(archived, "mine");
+  fs::remove_all(out / "held");
+  fs::create_directory_symlink(folder.path() / "archive", out / "held");
+  check_refused(run_with_cache(folder.path(), "run scene.toml -o out"), 2, {"out/held is a link to another folder"});
+  BOOST_TEST(read_file(archived) == "mine");
+  write_file(folder.path() / "scene.toml", scene_with_ring("other"));
+  check_done(run_with_cache(folder.path(), "run scene.toml -o out"));
+  BOOST_TEST(read_file(archived) == "mine");
+  BOOST_TEST(fs::is_symlink(out / "held"));
   // Links that lead nowhere.
   fs::create_symlink("nowhere", folder.path() / "dangling");
   check_refused(run_with_cache(folder.path(), "run scene.toml -o dangling"), 2, {"dangling is a link to nowhere"});
@@ -266,6 +280,36 @@ BOOST_AUTO_TEST_CASE(links_are_never_written_through) {
   fs::create_symlink("nowhere", folder.path() / "inside/held");
   check_refused(run_with_cache(folder.path(), "run scene.toml -o inside"), 2,
                 {"inside/held: is a link to nowhere, which does not exist"});
+}
+
+BOOST_AUTO_TEST_CASE(a_note_of_a_run_that_was_changed_is_not_believed) {
+  const test::TemporaryFolder folder("note");
+  write_file(folder.path() / "scene.toml", test::quick_scene());
+  check_done(run_with_cache(folder.path(), "run scene.toml -o out"));
+  const auto note = folder.path() / "out/run.json";
+  const auto before = read_file(note);
+  for (const std::string& damaged :
+       {test::replaced(before, "load sharing", "load shaming"), std::string("{}"), before.substr(0, 100)}) {
+    write_file(note, damaged);
+    const auto again = run_with_cache(folder.path(), "run scene.toml -o out");
+    check_done(again);
+    BOOST_TEST(says(again.err, "run.json has changed since the last run"), again.err);
+    BOOST_TEST(!says(again.out, "shaming"));
+    BOOST_TEST(!says(again.out, "nothing has changed"));
+  }
+  fs::remove(note);
+  fs::create_directory(note);
+  check_refused(run_with_cache(folder.path(), "run scene.toml -o out"), 2, {"run.json"});
+  fs::remove(note);
+  BOOST_REQUIRE(::mkfifo(note.c_str(), 0600) == 0);
+  const auto pipe = run_with_cache(folder.path(), "run scene.toml -o out");  // does not wait
+  BOOST_TEST((pipe.status == 0 || pipe.status == 2), pipe.err);
+  // A list of files that does not tell whose they are.
+  auto list = read_file(folder.path() / "out/owner.txt");
+  list.erase(list.find("scene "), list.find("title ") - list.find("scene "));
+  std::ofstream(folder.path() / "out/owner.txt") << list;
+  check_refused(run_with_cache(folder.path(), "run scene.toml -o out"), 2,
+                {"owner.txt: is damaged: it names no scene"});
 }
 
 BOOST_AUTO_TEST_CASE(rings_have_none_of_the_names_of_a_run) {
@@ -321,6 +365,9 @@ BOOST_AUTO_TEST_CASE(pictures_of_a_comparison_and_names_that_are_formulas) {
   write_file(folder.path() / "both_pictures/09_mine.svg", "mine");
   for (int i = 0; i < 2; ++i) check_done(run_with_cache(folder.path(), "compare '=1+1' '@a\n=b' -o both.html"));
   BOOST_TEST(read_file(folder.path() / "both_pictures/09_mine.svg") == "mine");
+  write_file(folder.path() / "data.csv", "mine");
+  check_refused(run_with_cache(folder.path(), "compare '=1+1' '@a\n=b' -o data.html"), 2, {"would replace data.csv"});
+  BOOST_TEST(read_file(folder.path() / "data.csv") == "mine");
   const auto csv = read_file(folder.path() / "both.csv");
   BOOST_TEST(says(csv, ",'=1+1,"));
   BOOST_TEST(says(csv, ",'@a =b,"));

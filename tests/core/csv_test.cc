@@ -88,7 +88,8 @@ BOOST_AUTO_TEST_CASE(cells_with_text_are_quoted_where_they_have_to_be) {
   BOOST_TEST(csv_cell("\t=1") == "' =1");
   BOOST_TEST(csv_cell("=\"a\",b") == "\"'=\"\"a\"\",b\"");
   BOOST_TEST(csv_cell("1=1") == "1=1");
-  BOOST_TEST(annulus::csv_line("a\n=b\r\x7f") == "a =b  ");
+  BOOST_TEST(annulus::csv_remark("a\n=b\r\x7f") == "a =b  ");
+  BOOST_TEST(annulus::csv_remark("a,=1+1 = a, -2,b") == "a,'=1+1 = a, '-2,b");
   BOOST_TEST(std::stod(csv_cell(0.1 + 0.2)) == 0.1 + 0.2);
   BOOST_TEST(csv_cell(std::numeric_limits<double>::quiet_NaN()).empty());
   BOOST_TEST(csv_cell(-std::numeric_limits<double>::infinity()).empty());

@@ -1,5 +1,7 @@
 #include "core/result_store.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <boost/test/unit_test.hpp>
@@ -95,6 +97,15 @@ BOOST_AUTO_TEST_CASE(every_damage_is_noticed) {
     }
     write_file(file, whole + "x");
     BOOST_TEST(!store.find("word", "inputs"));
+    // Sizes that no memory has.
+    const auto size = fmt::format(" {} ", std::string("some content, and more of it").size());
+    for (const char* huge : {"99999999999999999", "9999999999999999999"}) {
+      auto damaged = whole;
+      damaged.replace(whole.find(size), size.size(), fmt::format(" {} ", huge));
+      write_file(file, damaged);
+      BOOST_TEST(!store.find("word", "inputs"), huge);
+      BOOST_TEST(!std::filesystem::exists(file));
+    }
     // Under the name of another result.
     keep();
     store.keep("word", "other", "other content", packing);

@@ -2,6 +2,7 @@
 
 import json
 import math
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -140,7 +141,19 @@ class Runs(WithStage):
     def test_results_of_a_folder(self):
         again = annulus.Results(self.folder / "out")
         self.assertTrue(again.figures.equals(self.results.figures))
-        self.assertRaisesRegex(annulus.InputError, "summary.json", annulus.Results, self.folder)
+        self.assertRaisesRegex(annulus.InputError, "run.json", annulus.Results, self.folder)
+
+    def test_results_that_were_changed_are_refused(self):
+        copy = self.folder / "changed"
+        for name in ["figures.csv", "summary.json", "run.json", "held/dynamics/modes.csv"]:
+            shutil.copytree(self.folder / "out", copy)
+            file = copy / name
+            text = file.read_text(encoding="utf-8")
+            place = max(text.rfind(digit) for digit in "123456789")
+            file.write_text(text[:place] + str((int(text[place]) + 1) % 10) + text[place + 1 :], encoding="utf-8")
+            with self.assertRaisesRegex(annulus.InputError, name):
+                annulus.Results(copy).table("held/dynamics/modes")
+            shutil.rmtree(copy)
 
 
 class Stiffness(WithStage):

@@ -147,6 +147,7 @@ void apply_setting(toml::table& root, const std::string& setting) {
   };
   const auto path = trimmed(setting.substr(0, equal)), text = trimmed(setting.substr(equal + 1));
   const auto value = value_of_setting(text);
+  if (value.size() != 1) refuse_setting(setting, "has several keys; give each one with a --set of its own");
   const auto dot = path.rfind('.');
   const auto name = split_path(dot == std::string::npos ? path : path.substr(dot + 1));
   auto head = dot == std::string::npos ? std::string() : path.substr(0, dot);
