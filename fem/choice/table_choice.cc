@@ -70,21 +70,24 @@ TableResolution table_resolution(double accuracy, double uptake, double overlap_
         "helical teeth that overlap by a pitch transfer their load slowly: 64 positions change nothing";
     return choice;
   }
-  if (accuracy >= very_rough_accuracy) {
-    choice.phases_reason = "an accuracy of 10 % or coarser leaves it at 32 positions";
-    return choice;
-  }
+  const bool very_rough = accuracy >= very_rough_accuracy;
   const auto* peaks = std::begin(missed_peaks);
   const auto* finest = std::end(missed_peaks) - 1;
-  while (!slow && peaks != finest && peaks->relative > accuracy) ++peaks;
-  choice.phases = peaks->phases;
-  choice.phases_reason =
-      slow ? "helical teeth that overlap by a pitch transfer their load slowly: 128 positions change nothing"
-           : fmt::format("with {} positions the error of peak factors is up to {:.2g} %", choice.phases,
-                         100 * peaks->relative);
+  if (very_rough) {
+    choice.phases_reason = "an accuracy of 10 % or coarser leaves it at 32 positions";
+  } else {
+    while (!slow && peaks != finest && peaks->relative > accuracy) ++peaks;
+    choice.phases = peaks->phases;
+    choice.phases_reason =
+        slow ? "helical teeth that overlap by a pitch transfer their load slowly: 128 positions change nothing"
+             : fmt::format("with {} positions the error of peak factors is up to {:.2g} %", choice.phases,
+                           100 * peaks->relative);
+  }
+  // The stiffness has spikes where pairs take up a light load.
+  const int most = very_rough ? finest->phases / 2 : finest->phases;
   const double within = accuracy < linear_accuracy ? 2 : 1;  // positions within which a light load is taken up
   if (choice.phases * uptake < 1) {
-    while (choice.phases < finest->phases && choice.phases * uptake < within) choice.phases *= 2;
+    while (choice.phases < most && choice.phases * uptake < within) choice.phases *= 2;
     choice.phases_reason =
         fmt::format("the load is so light that a pair takes it up within {:.1g} of a mesh cycle", uptake);
   }

@@ -105,6 +105,9 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_how_finely_tables_are_resolved) {
   // A light load is taken up within a short way, which the positions must not step over: root of the deflection.
   BOOST_TEST(fem::load_uptake(4 * 140.0, 0.1, 0.004, 206e9) == 2 * fem::load_uptake(140.0, 0.1, 0.004, 206e9));
   BOOST_TEST(fem::load_uptake(140e3, 0.01, 0.001, 206e9) == 1.0, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(fem::table_resolution(0.1, 1.0 / 32, 0).phases == 32);
+  BOOST_TEST(fem::table_resolution(0.1, 1.0 / 33, 0).phases == 64);
+  BOOST_TEST(fem::table_resolution(0.2, 1e-9, 0).phases == 128);
   BOOST_TEST(fem::table_resolution(0.03, 1.0 / 64, 0).phases == 64);
   BOOST_TEST(fem::table_resolution(0.03, 1.0 / 65, 0.9).phases == 128);
   BOOST_TEST(fem::table_resolution(0.01, 1.0 / 65, 0).phases == 128);
