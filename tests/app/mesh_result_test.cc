@@ -169,7 +169,9 @@ BOOST_AUTO_TEST_CASE(everything_known_is_kept) {
   const auto geometry = app::make_geometry(scene);
   auto model = app::ring_mesh_model(scene, geometry, 1);
   model.problem->phases = 4;
-  auto result = app::pack(model, test::made_up_solution(model));
+  auto solved = test::made_up_solution(model);
+  solved.face_load_factor_error = 0.03;
+  auto result = app::pack(model, solved);
   result.picture = "<svg/>";
   BOOST_TEST(result.positions.columns.size() == result.positions.rows.front().size());
   const auto check_peaks = [](const app::MeshResult& r) {
@@ -177,6 +179,9 @@ BOOST_AUTO_TEST_CASE(everything_known_is_kept) {
     BOOST_TEST_REQUIRE(r.peak("face_load_factor").has_value());
     BOOST_TEST(r.peak("face_load_factor")->value == 1.5, tolerance);
     BOOST_TEST(r.peak("face_load_factor")->at.mesh_phase == 0.0);
+    BOOST_TEST(r.face_load_factor()->value == 1.5, tolerance);
+    BOOST_TEST(r.face_load_factor()->parts.discretisation == 0.03 / 1.5, tolerance);
+    BOOST_TEST(r.face_load_factor()->error_relative >= 0.03 / 1.5);
     BOOST_TEST(r.peak("planet_root_tension_MPa")->value == 150, tolerance);
     BOOST_TEST(r.peak("planet_root_compression_MPa")->value == -180, tolerance);  // by magnitude, with its sign
     BOOST_TEST(r.peak("ring_rim_von_mises_MPa")->value == 50, tolerance);

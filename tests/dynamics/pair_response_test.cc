@@ -115,8 +115,8 @@ BOOST_AUTO_TEST_CASE(six_dofs_follow_their_dynamic_stiffness) {
                  2 * std::abs(at("pinion_u") + at("wheel_u") + at("pinion_y") - at("wheel_y")),
              close);
   BOOST_TEST(r.dynamic.relative.mean.value == r.static_force / k / std::cos(pair.base_helix_angle) +
-                                            2 * r.static_force * std::pow(std::sin(pair.base_helix_angle), 2) / 1e9 /
-                                                std::cos(pair.base_helix_angle),
+                                                  2 * r.static_force * std::pow(std::sin(pair.base_helix_angle), 2) /
+                                                      1e9 / std::cos(pair.base_helix_angle),
              close);
 }
 
