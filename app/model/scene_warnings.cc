@@ -28,23 +28,25 @@ void warn_of_assumptions(std::vector<Warning>& list, const Plan& plan) {
                               fmt::join(keys, ", "))});
 }
 
-void warn_of_phases(std::vector<Warning>& list, const Scene& scene) {
+/// Empty where all are stated.
+std::string text_of_unstated_phases(const Scene& scene) {
   const auto phases = unstated_phases(scene);
-  if (phases.empty()) return;
-  const auto sampling = sampling_of(scene);
+  if (phases.empty()) return "";
   std::set<std::string> keys;
   for (const auto& phase : phases) keys.insert(phase.substr(0, phase.find('[')));
-  const auto what = fmt::format("the phases of {} errors are not stated ({})", phases.size(), fmt::join(keys, ", "));
-  if (!sampling)
-    list.push_back({"unstated_phases", Severity::warning,
-                    what + ". The results are those of one arbitrary choice; state the phases, or draw samples"});
-  else if (sampling->by_default)
-    list.push_back(
-        {"unstated_phases", Severity::note,
-         what +
-             fmt::format(
-                 ": {} samples of them are drawn, and the result is their spread. State the phases if they are known",
-                 sampling->samples)});
+  return fmt::format("the phases of {} errors are not stated ({})", phases.size(), fmt::join(keys, ", "));
+}
+
+void warn_of_phases(std::vector<Warning>& list, const Scene& scene) {
+  const auto sampling = sampling_of(scene);
+  if (!sampling) return warn_of_arbitrary_phases(list, scene, "state the phases, or draw samples");
+  const auto what = text_of_unstated_phases(scene);
+  if (what.empty() || !sampling->by_default) return;
+  list.push_back(
+      {"unstated_phases", Severity::note,
+       what + fmt::format(
+                  ": {} samples of them are drawn, and the result is their spread. State the phases if they are known",
+                  sampling->samples)});
 }
 
 void warn_of_accuracy(std::vector<Warning>& list, const Scene& scene, const Plan& plan) {
@@ -63,6 +65,13 @@ void warn_of_accuracy(std::vector<Warning>& list, const Scene& scene, const Plan
 }
 
 }  // namespace
+
+void warn_of_arbitrary_phases(std::vector<Warning>& list, const Scene& scene, const std::string& remedy) {
+  const auto what = text_of_unstated_phases(scene);
+  if (!what.empty())
+    list.push_back(
+        {"unstated_phases", Severity::warning, what + ". The results are those of one arbitrary choice; " + remedy});
+}
 
 std::vector<Warning> common_warnings(const Scene& scene, const Plan& plan) {
   std::vector<Warning> list;

@@ -15,6 +15,9 @@ namespace annulus::app {
 /// inputs, meshes and cost.
 [[nodiscard]] std::vector<Warning> common_warnings(const Scene& scene, const Plan& plan);
 
+/// Errors whose phases nobody stated, where no samples of them are drawn.
+void warn_of_arbitrary_phases(std::vector<Warning>& list, const Scene& scene, const std::string& remedy);
+
 /// A tip that passes the root of its mate nearer than a tenth of a module. `gears`: names of pinion and wheel.
 void warn_of_clearance(std::vector<Warning>& list, const geometry::GearPair& pair,
                        const std::pair<const char*, const char*>& gears, const std::string& mesh);

@@ -1,4 +1,5 @@
 #include "app/systems/train/train_system.h"
+#include "app/model/scene_warnings.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -103,13 +104,19 @@ class TrainSystem final : public GearSystem {
 
   [[nodiscard]] std::vector<Warning> scene_warnings() const override {
     std::vector<Warning> list;
-    for (const auto& part : parts())
-      for (auto& warning : part.system->plan(1).warnings) {
-        // What the train says of all inputs and meshes of its parts.
-        if (warning.key == "assumed_inputs" || warning.key == "accuracy_not_expected") continue;
+    for (const auto& part : parts()) {
+      auto warnings = part.system->plan(1).warnings;
+      // What the train says of all inputs and meshes of its parts, and the samples that each of them would draw alone.
+      std::erase_if(warnings, [](const Warning& warning) {
+        return warning.key == "assumed_inputs" || warning.key == "accuracy_not_expected" ||
+               warning.key == "unstated_phases";
+      });
+      warn_of_arbitrary_phases(warnings, part.system->scene(), "state the phases: a train draws no samples of them");
+      for (auto& warning : warnings) {
         warning.where = part.name + (warning.where.empty() ? "" : ", " + warning.where);
         list.push_back(std::move(warning));
       }
+    }
     return list;
   }
 
