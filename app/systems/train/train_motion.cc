@@ -213,9 +213,11 @@ std::vector<PlannedResponse> train_responses(const Scene& scene, const std::vect
       dynamics::integration_seconds(system, problem.mesh_frequency, 1, options.integrator, stiffness);
   // And on the unchanged tables in the same way.
   const double runs = comparisons(tables) + (tables > 0 ? 1 : 0);
-  const double cycles = course.cycles + runs * course.compared_cycles + course.expected_search();
+  const auto& asked = scene.dynamics->mesh_cycles;
+  const double searched_s = course.expected_search() * per_cycle;
+  const double motion_s = (course.cycles + runs * course.compared_cycles) * per_cycle + searched_s;
   const double balances = course.balance_s * (1 + (course.compared_cycles > 0 ? 0 : runs));
-  const double study_s = course.balance_s + scene.dynamics->mesh_cycles.value_or(0) * per_cycle;
+  const double study_s = course.balance_s + asked.value_or(0) * per_cycle;
   // Motions and forces of the window and of those it is compared with, and the time series as text.
   constexpr double copies = 6.5, bytes_per_MB = 1e6;
   const double numbers = static_cast<double>(course.samples) * period *
@@ -223,9 +225,11 @@ std::vector<PlannedResponse> train_responses(const Scene& scene, const std::vect
   return {{.label = "dynamics of the train",
            .variant = "",
            .size = {.work = tables > 0 ? Work::response : Work::response_prescribed,
-                    .motion_s = balances + cycles * per_cycle,
+                    .motion_s = balances + motion_s,
                     .held_MB = copies * sizeof(double) * numbers / bytes_per_MB},
+           .search_s = asked ? 0 : std::max(0.0, course.possible_search_s(per_cycle) - searched_s),
            .study_s = study_s,
+           .study_search_s = asked ? 0 : searched_s,
            .sample_s = study_s}};
 }
 
