@@ -3,6 +3,7 @@
 # time, wall time, memory; tests/benchmarks/waiting_benchmark.cc).
 #   scripts/compare_versions.sh [commit]           default: b36f476, the version that the goals of docs/benchmarks.md refer to
 #   scripts/compare_versions.sh commit --works ring_types pinned_dynamics
+#   scripts/compare_versions.sh commit --figures [scene ...]     figures of the shipped scenes instead of times
 set -euo pipefail
 cd "$(dirname "$0")/.."
 commit=b36f476
@@ -24,6 +25,11 @@ git worktree prune
 [ -d "$folder/source" ] || git worktree add --detach --force "$folder/source" "$commit" >/dev/null
 build earlier "$folder/source"
 build later .
+if [ "${1:-}" = --figures ]; then
+  shift
+  exec scripts/compare_figures.py "$folder/earlier/app/annulus" "$folder/source/data/scenes" "$folder/later/app/annulus" \
+    data/scenes "$folder/figures" "$@"
+fi
 cmake -S . -B "$folder/later" -DANNULUS_BUILD_TESTS=ON >/dev/null
 cmake --build "$folder/later" --target waiting_benchmark >/dev/null
 exec "$folder/later/tests/benchmarks/waiting_benchmark" --earlier "$folder/earlier/app/annulus" "$folder/source/data/scenes" \
