@@ -38,10 +38,10 @@ class Campaign {
 
   CampaignResult run() {
     for_each_task(static_cast<std::size_t>(settings_.scenes), settings_.jobs, [&](std::size_t i) {
-      const auto scene = random_scene(settings_.first_seed + i);
+      const auto scene = scene_of_campaign(settings_.first_seed + i);
       if (!wanted(settings_.systems, system_name(scene))) return;
       for (const auto* relation : relations_)
-        if (const auto pair = relation->pair(scene)) run_pair(scene, *relation, *pair);
+        if (const auto pair = pair_of(*relation, scene)) run_pair(scene, *relation, *pair);
       write_table();
     });
     std::sort(result_.complaints.begin(), result_.complaints.end());
@@ -55,20 +55,21 @@ class Campaign {
     if (!settings_.table.empty()) write_file(settings_.table, campaign_text(result_));
   }
 
-  SceneRun run_one(const std::string& toml, const std::filesystem::path& folder, const std::string& arguments,
-                   bool fresh) {
-    return run_scene(toml, folder, {settings_.program, arguments, settings_.seconds, fresh, settings_.max_time});
+  SceneRun run_one(const RandomScene& scene, const std::string& toml, const std::filesystem::path& folder,
+                   const std::string& arguments, bool fresh) {
+    return run_scene(toml, folder,
+                     {settings_.program, arguments, settings_.seconds, fresh, settings_.max_time, scene.files});
   }
 
   void run_pair(const RandomScene& scene, const Relation& relation, const RunPair& pair) {
     auto name = fmt::format("{}-{}", scene.seed, relation.name);
     std::replace(name.begin(), name.end(), ' ', '_');
     const auto folder = settings_.folder / name;
-    const auto first = run_one(pair.first, folder / "first", pair.first_arguments, true);
+    const auto first = run_one(scene, pair.first, folder / "first", pair.first_arguments, true);
     SceneRun second;
     if (first.outcome == Outcome::right)
-      second = run_one(pair.second, pair.second_reuses ? folder / "first" : folder / "second", pair.second_arguments,
-                       !pair.second_reuses);
+      second = run_one(scene, pair.second, pair.second_reuses ? folder / "first" : folder / "second",
+                       pair.second_arguments, !pair.second_reuses);
     if (pair.second_reuses) second.cost = {};  // what was reused is no measure of a prediction
     const bool keep = note(scene, relation, first, second);
     if (!keep) std::filesystem::remove_all(folder);

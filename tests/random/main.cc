@@ -26,7 +26,9 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     if (show > 0) {
-      std::cout << random_scene(show).toml();
+      const auto scene = scene_of_campaign(show);
+      std::cout << scene.toml();
+      for (const auto& [name, text] : scene.files) std::cout << "\n# ---- " << name << "\n" << text;
       return EXIT_SUCCESS;
     }
     settings.folder = std::filesystem::absolute(settings.folder);

@@ -1,5 +1,7 @@
 #include "tests/random/random_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -311,6 +313,28 @@ RandomScene random_scene(std::uint64_t seed) {
   return scene;
 }
 
-std::string RandomScene::toml() const { return draft.toml(app::schema(kind)); }
+RandomScene random_train(std::uint64_t seed) {
+  Draw draw(seed);
+  RandomScene scene{.seed = seed, .kind = "train", .model = "closed_form", .draft = {}};
+  double torsional = 0;
+  for (const std::string part : {"first", "second"}) {
+    GearSet set = helical_pair_set(draw, Section::plane);
+    set.draft.set("model", scene.model);
+    set.chances["dynamics"] = set.chances["mesh.pinion_wheel"] = 1;
+    Walk(draw, set, app::schema("helical_pair")).run();
+    scene.files.emplace_back(part + ".toml", set.draft.toml(app::schema("helical_pair")));
+    scene.more += fmt::format("[[part]]\nname = \"{0}\"\nfile = \"{0}.toml\"\n", part);
+    torsional = std::max(torsional, set.scales.torsional_Nm_per_rad);
+  }
+  scene.more += fmt::format("[[shaft]]\nname = \"between\"\nfrom = \"first.wheel\"\nto = \"second.pinion\"\n");
+  scene.more += fmt::format("stiffness_Nm_per_rad = {:.4g}\n", torsional * draw.log_uniform(0.01, 10));
+  scene.draft.set("stage.kind", scene.kind);
+  scene.draft.set("dynamics.support_damping_ratio", rounded(draw.log_uniform(0.01, 0.1)));
+  return scene;
+}
+
+RandomScene scene_of_campaign(std::uint64_t seed) { return seed % 16 == 5 ? random_train(seed) : random_scene(seed); }
+
+std::string RandomScene::toml() const { return draft.toml(app::schema(kind)) + more; }
 
 }  // namespace annulus::random

@@ -425,4 +425,11 @@ std::vector<ComparedResult> compared(const Relation& relation, const SceneRun& f
   return list;
 }
 
+std::optional<RunPair> pair_of(const Relation& relation, const RandomScene& scene) {
+  const bool same_keys =
+      relation.agreement == Agreement::identical || relation.agreement == Agreement::numerical_errors;
+  if (!scene.files.empty() && !same_keys) return std::nullopt;
+  return relation.pair(scene);
+}
+
 }  // namespace annulus::random

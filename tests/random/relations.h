@@ -40,6 +40,9 @@ struct Relation {
 };
 
 [[nodiscard]] const std::vector<Relation>& relations();
+/// Relations that change keys know those of gear sets: of trains, whose gears are in files, only the accuracy and how
+/// they are run change.
+[[nodiscard]] std::optional<RunPair> pair_of(const Relation& relation, const RandomScene& scene);
 
 /// One result of both runs.
 struct ComparedResult {

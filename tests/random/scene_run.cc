@@ -124,6 +124,7 @@ SceneRun run_scene(const std::string& toml, const std::filesystem::path& folder,
   if (settings.fresh) std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   write_file(folder / "scene.toml", toml);
+  for (const auto& [name, text] : settings.files) write_file(folder / name, text);
   const std::string command = fmt::format(
       "cd '{}' && TIMEFORMAT='%U %S' && {{ time timeout --signal=KILL --foreground {} '{}' {} run scene.toml -o out "
       "--cache cache --max-time {} "

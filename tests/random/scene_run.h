@@ -47,11 +47,12 @@ struct SceneRun {
 };
 
 struct RunSettings {
-  std::string program;          ///< annulus
-  std::string arguments = "";   ///< beside those of every run
-  int seconds = 300;            ///< until it is ended
-  bool fresh = true;            ///< without what an earlier run in the same folder cached
-  std::string max_time = "1h";  ///< predicted
+  std::string program;                                       ///< annulus
+  std::string arguments = "";                                ///< beside those of every run
+  int seconds = 300;                                         ///< until it is ended
+  bool fresh = true;                                         ///< without what an earlier run in the same folder cached
+  std::string max_time = "1h";                               ///< predicted
+  std::vector<std::pair<std::string, std::string>> files{};  ///< beside the scene: their names and texts
 };
 
 /// Writes the scene into `folder` and runs the program on it, one thread unless the arguments say otherwise.

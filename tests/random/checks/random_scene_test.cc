@@ -9,6 +9,9 @@
 #include "app/scene/scene.h"
 #include "app/scene/scene_kind.h"
 #include "core/errors.h"
+#include "core/files.h"
+#include "tests/random/relations.h"
+#include "tests/temporary_folder.h"
 
 namespace annulus::test {
 
@@ -58,6 +61,36 @@ BOOST_AUTO_TEST_CASE(most_scenes_can_be_made) {
     }
   }
   BOOST_TEST(made > 0.85 * tried);
+}
+
+BOOST_AUTO_TEST_CASE(most_trains_can_be_made) {
+  constexpr int tried = 40;
+  int made = 0;
+  for (std::uint64_t seed = 1; seed <= tried; ++seed) {
+    const auto train = random::random_train(seed);
+    BOOST_TEST(train.toml() == random::random_train(seed).toml());
+    const TemporaryFolder folder("random_train");
+    for (const auto& [name, text] : train.files) write_file(folder.path() / name, text);
+    write_file(folder.path() / "scene.toml", train.toml());
+    try {
+      app::check_stage(app::read_scene(folder.path() / "scene.toml"));
+      ++made;
+    } catch (const InputError& error) {
+      BOOST_TEST_MESSAGE(error.what());
+    }
+  }
+  BOOST_TEST(made > 0.7 * tried);
+}
+
+BOOST_AUTO_TEST_CASE(a_campaign_draws_trains_and_changes_none_of_their_keys) {
+  for (std::uint64_t seed = 1; seed <= 32; ++seed) {
+    const auto scene = random::scene_of_campaign(seed);
+    BOOST_TEST((scene.kind == "train") == (seed % 16 == 5));
+    if (scene.files.empty()) continue;
+    int pairs = 0;
+    for (const auto& relation : random::relations()) pairs += random::pair_of(relation, scene).has_value() ? 1 : 0;
+    BOOST_TEST(pairs == 3);  // two accuracies, reused, two threads
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
