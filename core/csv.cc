@@ -118,12 +118,12 @@ std::string Csv::text() const {
   return fmt::to_string(out);
 }
 
-void Csv::write(const std::filesystem::path& file) const {
+void Csv::write(const std::filesystem::path& target) const {
   try {
-    write_file(file, text());
+    write_file(target, text());
   } catch (const InputError& error) {
     const std::string what = error.what();
-    throw InputError(what.find(file.string()) == std::string::npos ? file.string() + ": " + what : what);
+    throw InputError(what.find(target.string()) == std::string::npos ? target.string() + ": " + what : what);
   }
 }
 
