@@ -174,6 +174,23 @@ std::string solid_reason(const Scene& scene, const GearMesh& mesh) {
                                                          mesh.wheel_name, mesh.misalignment, mesh.gauges_across));
 }
 
+std::optional<fem::LoadedMeshProblem> mesh_problem(const Scene& scene, const GearMesh& mesh) {
+  if (mesh.input.stiffness != StiffnessShape::computed) return std::nullopt;
+  const auto face = mesh.pair.common_face();
+  return fem::LoadedMeshProblem{.pair = mesh.pair,
+                                .materials = {material_of(scene, mesh.pinion), material_of(scene, mesh.wheel)},
+                                .face_width = face.width,
+                                .pinion_bore_radius = mesh.pinion.bore_diameter.value_or(0) / 2,
+                                .wheel_support_radius = mesh.wheel_support_diameter.value_or(0) / 2,
+                                .structure = mesh.structure,
+                                .misalignment = mesh.misalignment,
+                                .pinion_overhang = face.pinion,
+                                .wheel_overhang = face.wheel,
+                                .name = mesh.mesh,
+                                .gauges = mesh.gauges,
+                                .planet_rollers = mesh.planet_rollers};
+}
+
 MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
   MeshModel model;
   model.mesh = mesh.mesh;
@@ -181,23 +198,11 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
   model.variant = mesh.variant;
   model.pinion_body = mesh.pinion_name;
   model.wheel_body = mesh.wheel_name;
-  if (mesh.input.stiffness != StiffnessShape::computed) {
+  model.problem = mesh_problem(scene, mesh);
+  if (!model.problem) {
     set_prescribed(model, mesh.input.stiffness);
     return model;
   }
-  const auto face = mesh.pair.common_face();
-  model.problem = {.pair = mesh.pair,
-                   .materials = {material_of(scene, mesh.pinion), material_of(scene, mesh.wheel)},
-                   .face_width = face.width,
-                   .pinion_bore_radius = mesh.pinion.bore_diameter.value_or(0) / 2,
-                   .wheel_support_radius = mesh.wheel_support_diameter.value_or(0) / 2,
-                   .structure = mesh.structure,
-                   .misalignment = mesh.misalignment,
-                   .pinion_overhang = face.pinion,
-                   .wheel_overhang = face.wheel,
-                   .name = mesh.mesh,
-                   .gauges = mesh.gauges,
-                   .planet_rollers = mesh.planet_rollers};
   const fem::MeshWish wish{.model = scene.fidelity,
                            .accuracy = scene.accuracy,
                            .mean_force = mesh.mean_force,

@@ -65,6 +65,8 @@ struct GearMesh {
   bool ring_modes_count = false;  ///< elastic modes of the ring take part in the dynamics
   std::string why_it_tilts{};     ///< its bodies do, which solid gears answer where the model is left open; empty: not
 };
+/// Its elastic problem, before the model, its positions and loads are chosen; nothing for a prescribed stiffness.
+[[nodiscard]] std::optional<fem::LoadedMeshProblem> mesh_problem(const Scene& scene, const GearMesh& mesh);
 [[nodiscard]] MeshModel mesh_model(const Scene& scene, const GearMesh& mesh);
 /// Why it needs a solid model: what changes along its face width. Empty when nothing does.
 [[nodiscard]] std::string solid_reason(const Scene& scene, const GearMesh& mesh);

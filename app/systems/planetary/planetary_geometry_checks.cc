@@ -36,15 +36,15 @@ void check_ring_rim(const Scene& scene, const RingInput& input, const RingGeomet
 }
 
 void check_ring_supports(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
-  const auto model = ring_mesh_model(scene, geometry, ring);
-  if (!model.computed() || !fem::on_single_supports(model.problem->structure)) return;
-  const double turn = fem::turn_on_supports(*model.problem, geometry.operating_point.mean_mesh_force);
+  const auto problem = ring_mesh_problem(scene, geometry, ring);
+  if (!problem || !fem::on_single_supports(problem->structure)) return;
+  const double turn = fem::turn_on_supports(*problem, geometry.operating_point.mean_mesh_force);
   const double modules = turn / scene.stage.module;
   if (modules <= largest_deflection) return;
   throw InputError(
       fmt::format("ring '{}': turns on its {} by {} mm = {:.2g} modules under the nominal load; {}: make them stiffer, "
                   "use more of them, or reduce their clearance",
-                  planetary(scene).rings.at(ring).name, model.problem->structure.words().supports,
+                  planetary(scene).rings.at(ring).name, problem->structure.words().supports,
                   to_text(turn / units::mm, 3), modules, small_displacements_rule()));
 }
 

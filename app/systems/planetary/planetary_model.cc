@@ -63,27 +63,40 @@ MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
                             .why_it_tilts = why_it_tilts(scene, geometry, 0)});
 }
 
-MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
+namespace {
+
+GearMesh ring_gear_mesh(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
   const auto& input = planetary(scene).rings.at(ring);
   const auto& made = geometry.rings.at(ring);
-  return mesh_model(scene, {.mesh = ring_planet,
-                            .title = "ring-planet mesh",
-                            .variant = input.name,
-                            .pair = made.set.ring_mesh(),
-                            .input = planetary(scene).ring_planet,
-                            .pinion = sun_and_planets(scene).planet,
-                            .wheel = input,
-                            .pinion_name = "planet",
-                            .wheel_name = "ring",
-                            .wheel_support_diameter = 2 * made.outside_radius,
-                            .structure = ring_structure(input),
-                            .gauges = gauges_on(scene, input, made.set.ring_mesh().common_face().width),
-                            .gauges_across = gauges_need_solid(scene, input),
-                            .planet_rollers = rollers_of(scene, made.set.sun_mesh()),
-                            .misalignment = planetary(scene).errors.ring_planet_misalignment,
-                            .mean_force = geometry.operating_point.mean_mesh_force,
-                            .ring_modes_count = scene.dynamics && planetary(scene).rim_coupling == RimCoupling::elastic,
-                            .why_it_tilts = why_it_tilts(scene, geometry, ring)});
+  return {.mesh = ring_planet,
+          .title = "ring-planet mesh",
+          .variant = input.name,
+          .pair = made.set.ring_mesh(),
+          .input = planetary(scene).ring_planet,
+          .pinion = sun_and_planets(scene).planet,
+          .wheel = input,
+          .pinion_name = "planet",
+          .wheel_name = "ring",
+          .wheel_support_diameter = 2 * made.outside_radius,
+          .structure = ring_structure(input),
+          .gauges = gauges_on(scene, input, made.set.ring_mesh().common_face().width),
+          .gauges_across = gauges_need_solid(scene, input),
+          .planet_rollers = rollers_of(scene, made.set.sun_mesh()),
+          .misalignment = planetary(scene).errors.ring_planet_misalignment,
+          .mean_force = geometry.operating_point.mean_mesh_force,
+          .ring_modes_count = scene.dynamics && planetary(scene).rim_coupling == RimCoupling::elastic,
+          .why_it_tilts = why_it_tilts(scene, geometry, ring)};
+}
+
+}  // namespace
+
+MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
+  return mesh_model(scene, ring_gear_mesh(scene, geometry, ring));
+}
+
+std::optional<fem::LoadedMeshProblem> ring_mesh_problem(const Scene& scene, const GearGeometry& geometry,
+                                                        std::size_t ring) {
+  return mesh_problem(scene, ring_gear_mesh(scene, geometry, ring));
 }
 
 std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geometry) {

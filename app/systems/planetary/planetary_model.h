@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ namespace annulus::app {
 
 [[nodiscard]] MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry);
 [[nodiscard]] MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring);
+/// The elastic problem of a ring mesh, for which no model is chosen yet; nothing for a prescribed stiffness.
+[[nodiscard]] std::optional<fem::LoadedMeshProblem> ring_mesh_problem(const Scene& scene, const GearGeometry& geometry,
+                                                                      std::size_t ring);
 /// Sun mesh first, then one per ring.
 [[nodiscard]] std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geometry);
 
