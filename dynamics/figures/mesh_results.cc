@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/errors.h"
 #include "dynamics/figures/peaks.h"
@@ -121,6 +122,9 @@ struct MeshWindow {
     if (window.time.size() > 0) coarse.time = window.time(Eigen::seqN(0, samples, 2));
     coarse.force = window.force(Eigen::seqN(mesh, meshes), Eigen::seqN(0, samples, 2));
     coarse.jump_time = window.jump_time;
+    for (const Eigen::Index i : window.after_jump)
+      if (const Eigen::Index at = (i + 1) / 2; at < samples) coarse.after_jump.push_back(at);
+    coarse.after_jump.erase(std::unique(coarse.after_jump.begin(), coarse.after_jump.end()), coarse.after_jump.end());
     if (jumps()) {
       coarse.force_before = window.force_before.middleRows(mesh, meshes);
       coarse.force_after = window.force_after.middleRows(mesh, meshes);
@@ -218,12 +222,16 @@ Figure quasi_static_sharing(const Eigen::MatrixXd& force, const std::vector<Eige
 /// The same meshes in the best window, and in others whose results should be equal: their differences are errors.
 struct MeshEvidence {
   MeshWindow best, before, loose;
+  /// Behind jumps forces vibrate between samples that nothing makes closer: `best` from every second of them.
+  std::optional<ResponseWindow> half{};
   MeshEvidence(const SteadyResponse& found, Eigen::Index first, Eigen::Index count)
       : best{found.best, first, count, found.steady && found.whole_period},
         before{found.before ? *found.before : found.best, first, count, best.repeats},
         loose{found.loose ? *found.loose : found.best, first, count, best.repeats},
         alone(found.total_cycles == 0 && found.before),
         beside(best) {
+    if (best.jumps() && !best.closer && found.best.samples_per_cycle % 2 == 0)
+      half = best.every_second_sample(first, count);
     // Peaks are compared as they are sampled in both; both sides of jumps are in any window.
     if (best.closer != before.closer && !best.jumps()) beside.closer = before.closer = false;
   }
@@ -232,6 +240,12 @@ struct MeshEvidence {
   /// largest difference at any instant.
   bool alone;
   MeshWindow beside;  ///< `best`, to compare with `before`
+
+  /// What a result of all samples differs by from that of half of them, where these are all there is.
+  template <class Result>
+  [[nodiscard]] double sampling(const Peak& of_all, const Result& result) const {
+    return half ? std::abs(of_all.refined - result(MeshWindow{*half, 0, best.count, best.repeats}).refined) : 0;
+  }
 
   /// |difference| at the instants of `before`, largest over rows and instants, of matrices of as many columns as there
   /// are samples, or fewer.
@@ -263,7 +277,7 @@ struct MeshEvidence {
     // Loads that vary over more than a cycle are averaged by samples, too.
     const bool even = width(best) % 2 == 0 && best.window.force.cols() % 2 == 0;
     const Peak coarsely = even ? best.largest_cycle_factor(branch, width(best), 2) : largest;
-    return with_error(figure(largest, {factor(loose), coarsely}), other);
+    return with_error(figure(largest, {factor(loose), coarsely}), other + sampling(largest, factor));
   }
   /// By another motion, and by the samples at which contact is seen to begin and end.
   [[nodiscard]] Figure contact_loss(Eigen::Index branch) const {
@@ -289,8 +303,10 @@ std::vector<BranchResult> branch_results(const SteadyResponse& found, Eigen::Ind
     const double apart =
         meshes.alone ? meshes.forces_apart(p)
                      : std::abs(meshes.beside.largest_force(p).refined - meshes.before.largest_force(p).refined);
+    const double sampling =
+        meshes.sampling(largest, [&](const MeshWindow& w) { return w.largest_force(p) / nominal_force; });
     const auto factor =
-        with_error(figure(largest, {meshes.loose.largest_force(p) / nominal_force}), apart / nominal_force);
+        with_error(figure(largest, {meshes.loose.largest_force(p) / nominal_force}), apart / nominal_force + sampling);
     results.push_back({factor, meshes.dynamic_factor(p, mesh_cycle), meshes.best.least_force(p) / nominal_force,
                        meshes.best.mean_force(p), meshes.contact_loss(p),
                        found.best.back.size() > 0 ? found.best.back[first + p] : 0});
@@ -308,7 +324,8 @@ LoadSharing load_sharing(const SteadyResponse& found, Eigen::Index first, Eigen:
     return {with_error(figure(best.sharing(), {}), meshes.shares_apart()),
             with_error(figure(best.averaged(), {}), meshes.averages_apart()), quasi_static};
   return {with_error(figure(best.sharing(), {loose.sharing()}),
-                     std::abs(meshes.beside.sharing().refined - before.sharing().refined)),
+                     std::abs(meshes.beside.sharing().refined - before.sharing().refined) +
+                         meshes.sampling(best.sharing(), [](const MeshWindow& w) { return w.sharing(); })),
           figure(best.averaged(), {before.averaged(), loose.averaged(), best.averaged_coarsely()}), quasi_static};
 }
 
@@ -329,7 +346,9 @@ std::size_t worst_branch(const std::vector<BranchResult>& branches, Figure Branc
   std::size_t worst = 0;
   for (std::size_t n = 1; n < branches.size(); ++n) {
     const double value = (branches[n].*result).value, largest = (branches[worst].*result).value;
-    if (std::isnan(largest) || value > largest) worst = n;
+    // Of equal values, as of times without contact that are zero, the less certain one.
+    const bool less_certain = value == largest && (branches[n].*result).error > (branches[worst].*result).error;
+    if (std::isnan(largest) || value > largest || less_certain) worst = n;
   }
   return worst;
 }

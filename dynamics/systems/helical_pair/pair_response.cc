@@ -83,6 +83,16 @@ WindowPeaks peaks_of(const HelicalPair& pair, const LumpedSystem& system, const 
   return p;
 }
 
+/// What peaks_of() reads of a window.
+ResponseWindow every_second_sample(const ResponseWindow& window) {
+  const auto columns = Eigen::seqN(0, (window.time.size() + 1) / 2, Eigen::fix<2>);
+  ResponseWindow half;
+  half.time = window.time(columns);
+  for (const auto part : {&ResponseWindow::force, &ResponseWindow::displacement, &ResponseWindow::velocity})
+    half.*part = (window.*part)(Eigen::all, columns);
+  return half;
+}
+
 /// The peaks of the best window and those it is compared with, or bounds where only the forces are known.
 class PairEvidence {
  public:
@@ -99,6 +109,8 @@ class PairEvidence {
         force_difference_ =
             std::max(force_difference_, std::abs(found.best.force(0, stride * i) - (*other)->force(0, i)));
     }
+    // Behind jumps motions vibrate between the samples.
+    if (found.best.jumps()) others_.push_back(peaks_of(pair, system, every_second_sample(found.best)));
     // b / m: acceleration per force.
     const Eigen::VectorXd b = system.mesh_vector(0).cwiseAbs();
     for (int i = 0; i < system.dofs(); ++i)
