@@ -117,19 +117,40 @@ struct MeshWindow {
   }
   [[nodiscard]] ResponseWindow every_second_sample(Eigen::Index mesh, Eigen::Index meshes) const {
     const Eigen::Index samples = window.force.cols() / 2;
-    ResponseWindow coarse;
+    ResponseWindow coarse = jumps_of(mesh, meshes);
     coarse.samples_per_cycle = window.samples_per_cycle / 2;
     if (window.time.size() > 0) coarse.time = window.time(Eigen::seqN(0, samples, 2));
     coarse.force = window.force(Eigen::seqN(mesh, meshes), Eigen::seqN(0, samples, 2));
-    coarse.jump_time = window.jump_time;
-    for (const Eigen::Index i : window.after_jump)
-      if (const Eigen::Index at = (i + 1) / 2; at < samples) coarse.after_jump.push_back(at);
-    coarse.after_jump.erase(std::unique(coarse.after_jump.begin(), coarse.after_jump.end()), coarse.after_jump.end());
-    if (jumps()) {
-      coarse.force_before = window.force_before.middleRows(mesh, meshes);
-      coarse.force_after = window.force_after.middleRows(mesh, meshes);
-    }
+    coarse.after_jump = every_second(window.after_jump, samples);
     return coarse;
+  }
+  /// The same samples, between which forces are known at half of the closer times.
+  [[nodiscard]] ResponseWindow every_second_closer_time() const {
+    const Eigen::Index times = window.dense_force.cols() / 2;
+    ResponseWindow coarse = jumps_of(first, count);
+    coarse.samples_per_cycle = window.samples_per_cycle;
+    coarse.time = window.time;
+    coarse.force = force();
+    coarse.after_jump = window.after_jump;
+    coarse.dense_force = window.dense_force(Eigen::seqN(first, count), Eigen::seqN(0, times, 2));
+    coarse.dense_per_sample = window.dense_per_sample / 2;
+    coarse.dense_after_jump = every_second(window.dense_after_jump, times);
+    return coarse;
+  }
+  [[nodiscard]] ResponseWindow jumps_of(Eigen::Index mesh, Eigen::Index meshes) const {
+    ResponseWindow jumping;
+    jumping.jump_time = window.jump_time;
+    if (!jumps()) return jumping;
+    jumping.force_before = window.force_before.middleRows(mesh, meshes);
+    jumping.force_after = window.force_after.middleRows(mesh, meshes);
+    return jumping;
+  }
+  /// Places among every second of some samples, of which there are `count`.
+  static std::vector<Eigen::Index> every_second(const std::vector<Eigen::Index>& places, Eigen::Index count) {
+    std::vector<Eigen::Index> list;
+    for (const Eigen::Index i : places)
+      if (const Eigen::Index at = (i + 1) / 2; at < count && (list.empty() || list.back() != at)) list.push_back(at);
+    return list;
   }
   [[nodiscard]] double mean_force(Eigen::Index branch) const {
     return (jumps() ? averaging_force(window) : window.force).row(first + branch).mean();
@@ -222,7 +243,7 @@ Figure quasi_static_sharing(const Eigen::MatrixXd& force, const std::vector<Eige
 /// The same meshes in the best window, and in others whose results should be equal: their differences are errors.
 struct MeshEvidence {
   MeshWindow best, before, loose;
-  /// Behind jumps forces vibrate between samples that nothing makes closer: `best` from every second of them.
+  /// `best` from every second of its samples, or of its closer times: behind jumps forces may vibrate faster.
   std::optional<ResponseWindow> half{};
   MeshEvidence(const SteadyResponse& found, Eigen::Index first, Eigen::Index count)
       : best{found.best, first, count, found.steady && found.whole_period},
@@ -230,7 +251,9 @@ struct MeshEvidence {
         loose{found.loose ? *found.loose : found.best, first, count, best.repeats},
         alone(found.total_cycles == 0 && found.before),
         beside(best) {
-    if (best.jumps() && !best.closer && found.best.samples_per_cycle % 2 == 0)
+    if (best.jumps() && best.closer && found.best.dense_per_sample % 2 == 0)
+      half = best.every_second_closer_time();
+    else if (best.jumps() && !best.closer && found.best.samples_per_cycle % 2 == 0)
       half = best.every_second_sample(first, count);
     // Peaks are compared as they are sampled in both; both sides of jumps are in any window.
     if (best.closer != before.closer && !best.jumps()) beside.closer = before.closer = false;

@@ -97,13 +97,18 @@ void ResponseRun::advance(int cycles, ResponseWindow* window, EnergyTracking ene
   const double start = state_.time, spacing = (end - start) / std::max(samples, 1);
   if (window) {
     window->after_jump.clear();
+    window->dense_after_jump.clear();
     observer.at_jump = [&](double time) {
       jump_time.push_back(time);
       jump_force.insert(jump_force.end(), workspace_.force.begin(), workspace_.force.end());
-      // Rounding of a sample that stands on the jump itself: far below a billionth of the spacing.
-      const auto sample_after = static_cast<Eigen::Index>(std::ceil((time - start) / spacing - 1e-9));
-      if (sample_after < samples && (window->after_jump.empty() || window->after_jump.back() != sample_after))
-        window->after_jump.push_back(sample_after);
+      const auto note = [&](std::vector<Eigen::Index>& list, int instants_of_sample) {
+        // Rounding of a sample that stands on the jump itself: far below a billionth of the spacing.
+        const auto after = static_cast<Eigen::Index>(std::ceil((time - start) / spacing * instants_of_sample - 1e-9));
+        if (after < static_cast<Eigen::Index>(samples) * instants_of_sample && (list.empty() || list.back() != after))
+          list.push_back(after);
+      };
+      note(window->after_jump, 1);
+      if (closer_ > 1) note(window->dense_after_jump, closer_);
     };
   }
   const auto s = integrate(system_, state_, end, integrator_, workspace_, observer);

@@ -236,7 +236,7 @@ class SteadyStateFinder {
   /// Peaks of vibrations at the highest natural frequency need eight samples per period; long windows have many peaks.
   [[nodiscard]] int closer_samples() const {
     // The implicit method is chosen where vibrations die out at once, and ends a step at every instant.
-    if (std::isfinite(system_.next_jump(0)) || integrator_.method == Integrator::arkode_implicit) return 1;
+    if (integrator_.method == Integrator::arkode_implicit) return 1;
     constexpr int most_of_a_cycle = 512, most_of_a_window = 1 << 16;
     const int samples = options_.samples_per_cycle;
     const double highest = modes(system_, mean_stiffnesses(system_)).modes.back().frequency;
