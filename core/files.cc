@@ -113,8 +113,6 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
 
 std::optional<std::string> file_checksum(const std::filesystem::path& file) {
   constexpr std::streamsize block = 1 << 20;
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
   std::vector<char> buffer(block);

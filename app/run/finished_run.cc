@@ -19,8 +19,11 @@ namespace {
 constexpr const char* note_name = "run.json";
 constexpr const char* missing = "missing";
 
-/// "missing" where there is no such file.
-std::string stamp(const std::filesystem::path& file) { return file_checksum(file).value_or(missing); }
+/// Of a result; "missing" where there is no such file. A pipe, which would have to be waited for, is none.
+std::string stamp(const std::filesystem::path& file) {
+  std::error_code none;
+  return std::filesystem::is_regular_file(file, none) ? file_checksum(file).value_or(missing) : missing;
+}
 
 std::string text_of(const Json& note) { return note.dump(1) + "\n"; }
 
@@ -51,7 +54,7 @@ std::string run_id(const Scene& scene, const RunOptions& options) {
            fmt::format("{} {} {} {}", to_text(input.value), to_text(input.origin), input.note, input.assumed));
   auto files = input_files(scene);
   if (scene.reference) files.push_back(*scene.reference);
-  for (const auto& name : files) id.add(name, stamp(scene.file.parent_path() / name));
+  for (const auto& name : files) id.add(name, file_checksum(scene.file.parent_path() / name).value_or(missing));
   return id.id();
 }
 
