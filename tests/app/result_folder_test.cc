@@ -309,7 +309,7 @@ BOOST_AUTO_TEST_CASE(a_note_of_a_run_that_was_changed_is_not_believed) {
   // A list of files that does not tell whose they are, before another scene.
   write_file(folder.path() / "scene.toml", scene_with_ring("other"));
   auto list = read_file(folder.path() / "out/owner.txt");
-  list.erase(list.find("scene "), list.find("title ") - list.find("scene "));
+  list.erase(list.find("\nscene "), list.find("\ntitle ") - list.find("\nscene "));
   std::ofstream(folder.path() / "out/owner.txt") << list;
   check_refused(run_with_cache(folder.path(), "run scene.toml -o out"), 2,
                 {"owner.txt: is damaged: it names no scene"});
