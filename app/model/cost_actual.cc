@@ -50,6 +50,19 @@ void keep_costs(const PlanCost& done) {
   learn_pace(runs);
 }
 
+namespace {
+
+/// Times depend on what else the machine does: they stand with the cost, and not among what is known of the results.
+std::string far_off(const PlanCost& done) {
+  constexpr double far = 2, short_time = 10;  // s
+  const double predicted = done.seconds(), actual = done.actual_seconds();
+  if (!(std::max(actual, predicted) >= short_time) || !(predicted > 0)) return "";
+  if (actual > far * predicted) return fmt::format("; {:.2g} times as long as predicted", actual / predicted);
+  return predicted > far * actual ? fmt::format("; {:.2g} of the predicted time", actual / predicted) : "";
+}
+
+}  // namespace
+
 std::string cost_sentence(const SystemRun& run) {
   const auto& done = run.cost;
   if (done.empty()) return "";
@@ -58,11 +71,11 @@ std::string cost_sentence(const SystemRun& run) {
                          [](const CostStep& step) { return step.kind == CostKind::mesh; });
   };
   if (meshes(done) < meshes(run.plan.cost))
-    return fmt::format("predicted {}, actual {} for what was not reused", duration_text(done.seconds()),
-                       duration_text(done.actual_seconds()));
-  return fmt::format("predicted {} and {}, actual {} and {}", duration_text(done.seconds()),
-                     memory_text(done.peak_MB()), duration_text(done.actual_seconds()),
-                     memory_text(run.peak_memory_MB));
+    return fmt::format("predicted {}, actual {} for what was not reused{}", duration_text(done.seconds()),
+                       duration_text(done.actual_seconds()), far_off(done));
+  return fmt::format("predicted {} and {}, actual {} and {}{}", duration_text(done.seconds()),
+                     memory_text(done.peak_MB()), duration_text(done.actual_seconds()), memory_text(run.peak_memory_MB),
+                     far_off(done));
 }
 
 Json cost_json(const PlanCost& done) {

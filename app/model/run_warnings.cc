@@ -96,20 +96,6 @@ void warn_of_samples(std::vector<Warning>& list, const StudyResults& studies) {
   }
 }
 
-void warn_of_cost(std::vector<Warning>& list, const SystemRun& run) {
-  constexpr double far = 2, short_time = 10;  // s
-  double predicted = 0, actual = 0;
-  for (const auto& step : run.cost.steps) {
-    if (std::isfinite(step.predicted.seconds)) predicted += step.predicted.seconds;
-    if (step.actual && std::isfinite(step.actual->seconds())) actual += step.actual->seconds();
-  }
-  const double ratio = predicted > 0 ? actual / predicted : 1;
-  if (std::max(actual, predicted) < short_time || (ratio <= far && ratio >= 1 / far)) return;
-  list.push_back({"cost_far_off", Severity::note,
-                  fmt::format("the run took {} of processor time; {} were predicted", duration_text(actual),
-                              duration_text(predicted))});
-}
-
 }  // namespace
 
 std::vector<Warning> run_warnings(const SystemRun& run) {
@@ -123,7 +109,6 @@ std::vector<Warning> run_warnings(const SystemRun& run) {
     }
   }
   warn_of_samples(list, run.studies);
-  warn_of_cost(list, run);
   return by_severity(std::move(list));
 }
 

@@ -141,9 +141,9 @@ BOOST_AUTO_TEST_CASE(texts_stay_texts) {
     std::string reference;
     for (const auto* key : {"source", "doi", "note"}) reference += std::string(key) + " = \"" + evil + "\"\n";
     reference += std::string("[[value]]\nquantity = \"") + quantity + "\"\nvalue = 1\nstatement = \"" + evil +
-                 "\"\nwhere = \"" + evil + "\"\n[[order]]\nquantity = \"" + evil + "\"\nrings = [\"" + evil +
+                 "\"\nwhere = \"" + evil + "\"\n[[order]]\nquantity = \"" + evil + "\"\nvariants = [\"" + evil +
                  "\"]\nstatement = \"" + evil + "\"\n[[order]]\nquantity = \"" + quantity +
-                 "\"\nrings = [\"held\"]\nstatement = \"" + evil + "\"\nwhere = \"" + evil + "\"\n";
+                 "\"\nvariants = [\"held\"]\nstatement = \"" + evil + "\"\nwhere = \"" + evil + "\"\n";
     write_file(inner / "ref.toml", reference);
     const auto run = test::run_program(inner, "run scene.toml -o out --quiet");
     BOOST_TEST_REQUIRE(run.status == 0, name << ": " << run.err);
