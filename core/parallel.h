@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -27,9 +28,11 @@ void for_each_task(std::size_t tasks, int threads, Task task) {
     }
   };
   std::vector<std::thread> pool;
+  // Where the system refuses another thread (ulimit -u, -v) fewer do as well.
   try {
     for (int i = 1; i < threads && static_cast<std::size_t>(i) < tasks; ++i) pool.emplace_back(work);
-  } catch (const std::system_error&) {  // the system refuses another thread (ulimit -u, -v): fewer do as well
+  } catch (const std::system_error&) {
+  } catch (const std::bad_alloc&) {
   }
   work();
   for (auto& thread : pool) thread.join();

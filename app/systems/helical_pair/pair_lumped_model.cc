@@ -8,9 +8,10 @@
 #include "app/model/table_errors.h"
 #include "app/results/cached_value.h"
 #include "app/systems/helical_pair/pair_input.h"
-#include "app/systems/shared/friction_losses.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/mesh_names.h"
 #include "app/systems/shared/space_members.h"
+#include "dynamics/friction/friction_losses.h"
 
 namespace annulus {
 
@@ -86,22 +87,22 @@ LumpedPair lumped_pair(const Scene& scene, const PairGeometry& geometry, const M
 FigureSet pair_losses(const Scene& scene, const PairGeometry& geometry, const PairShares& shares) {
   FigureSet figures;
   if (!has_friction(scene)) return figures;
-  add_losses(figures, {mesh_losses(scene, pinion_wheel, rolling_mesh(scene, geometry), shares, 1)},
-             std::abs(helical_pair(scene).stage.pinion_torque) * helical_pair(scene).stage.pinion_speed);
+  dynamics::add_losses(figures, {mesh_losses(scene, pinion_wheel, rolling_mesh(scene, geometry), shares, 1)},
+                       std::abs(helical_pair(scene).stage.pinion_torque) * helical_pair(scene).stage.pinion_speed);
   return figures;
 }
 
 const std::vector<FigureSpec>& pair_study_figures() {
   static const auto list = [] {
     auto specs = dynamics::pair_figures();
-    specs.push_back(efficiency_figure());
+    specs.push_back(dynamics::efficiency_figure());
     return specs;
   }();
   return list;
 }
 
 std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {
-  const auto efficiency = efficiency_alone(pair_losses(lumped.scene, lumped.geometry, lumped.mesh.shares));
+  const auto efficiency = dynamics::efficiency_alone(pair_losses(lumped.scene, lumped.geometry, lumped.mesh.shares));
   auto simulation = pair_simulation(lumped.scene);
   simulation.confirmation = dynamics::Confirmation::where_needed;
   simulation.keep_series = false;

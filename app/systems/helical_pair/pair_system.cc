@@ -16,8 +16,9 @@
 #include "app/systems/helical_pair/pair_scene.h"
 #include "app/systems/helical_pair/pair_space.h"
 #include "app/systems/shared/faces.h"
-#include "app/systems/shared/friction_losses.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/mesh_names.h"
+#include "dynamics/friction/friction_losses.h"
 
 namespace annulus::app {
 
@@ -76,7 +77,7 @@ class PairSystem final : public GearSystem {
   }
 
   [[nodiscard]] std::string table_for(const std::string& result) const override {
-    if (result == efficiency_figure().key && !has_friction(scene())) return "[friction]";
+    if (result == dynamics::efficiency_figure().key && !has_friction(scene())) return "[friction]";
     return GearSystem::table_for(result);
   }
 
@@ -178,9 +179,10 @@ const std::vector<FigureSpec>& all_pair_figures() {
                                       .guarantee = Guarantee::always,
                                       .quantity = "mean_stiffness",
                                       .compared = true}};
-    return joined_figures(
-        {specs, mesh_figure_specs(pinion_wheel, "mesh", "pinion_wheel_stiffness", {"pinion", "wheel"}),
-         dynamics::pair_figures(), friction_figure_specs({{pinion_wheel, "mesh"}}), dynamics::transient_figures()});
+    return joined_figures({specs,
+                           mesh_figure_specs(pinion_wheel, "mesh", "pinion_wheel_stiffness", {"pinion", "wheel"}),
+                           dynamics::pair_figures(), dynamics::friction_figure_specs({{pinion_wheel, "mesh"}}),
+                           dynamics::transient_figures()});
   }();
   return list;
 }

@@ -9,9 +9,10 @@
 #include "app/systems/planetary/space_stage.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/strain_gauges.h"
-#include "app/systems/shared/friction_losses.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/mesh_names.h"
 #include "app/systems/shared/sun_planet_input.h"
+#include "dynamics/friction/friction_losses.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "dynamics/systems/planetary/space_motion.h"
@@ -131,15 +132,16 @@ FigureSet stage_losses(const Scene& scene, const GearGeometry& geometry, std::si
     return mesh_losses(scene, name, {&pair, point.mesh_frequency, point.mean_mesh_force}, mesh.shares,
                        scene.stage.planets);
   };
-  add_losses(figures, {losses(sun_mesh, sun_planet, set.sun_mesh()), losses(ring_mesh, ring_planet, set.ring_mesh())},
-             point.driving_power());
+  dynamics::add_losses(figures,
+                       {losses(sun_mesh, sun_planet, set.sun_mesh()), losses(ring_mesh, ring_planet, set.ring_mesh())},
+                       point.driving_power());
   return figures;
 }
 
 const std::vector<FigureSpec>& stage_study_figures() {
   static const auto list = [] {
     auto specs = dynamics::planetary_figures();
-    specs.push_back(efficiency_figure());
+    specs.push_back(dynamics::efficiency_figure());
     return specs;
   }();
   return list;
@@ -149,7 +151,7 @@ std::unique_ptr<LumpedModel> planetary_model(const Scene& scene, const GearGeome
                                              const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
   const auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
   const auto simulation = simulation_options(scene, stage);
-  const auto efficiency = efficiency_alone(stage_losses(scene, geometry, ring, sun_mesh, ring_mesh));
+  const auto efficiency = dynamics::efficiency_alone(stage_losses(scene, geometry, ring, sun_mesh, ring_mesh));
   return std::make_unique<LumpedModel>(
       identity_of(response_id(stage, simulation, sun_mesh, ring_mesh), std::string(dynamics::point_method())),
       [stage, simulation, efficiency](Answer wanted) -> StudyPoint {

@@ -28,11 +28,12 @@
 #include "app/systems/planetary/statics.h"
 #include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/faces.h"
-#include "app/systems/shared/friction_losses.h"
+#include "app/systems/shared/friction.h"
 #include "app/systems/shared/mesh_names.h"
 #include "app/systems/shared/rotors.h"
 #include "core/errors.h"
 #include "core/file_guard.h"
+#include "dynamics/friction/friction_losses.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
@@ -108,7 +109,7 @@ class PlanetarySystem final : public GearSystem {
   }
 
   [[nodiscard]] std::string table_for(const std::string& result) const override {
-    if (result == efficiency_figure().key && !has_friction(scene())) return "[friction]";
+    if (result == dynamics::efficiency_figure().key && !has_friction(scene())) return "[friction]";
     return GearSystem::table_for(result);
   }
 
@@ -229,8 +230,8 @@ const std::vector<FigureSpec>& all_planetary_figures() {
   static const auto list = joined_figures(
       {mesh_figure_specs(ring_planet, "ring mesh", "ring_stiffness", {"planet", "ring"}),
        mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness", {"planet", "sun"}),
-       friction_figure_specs({{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}}), dynamics::planetary_figures(),
-       tolerance_figures(), static_figures(), dynamics::transient_figures()});
+       dynamics::friction_figure_specs({{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}}),
+       dynamics::planetary_figures(), tolerance_figures(), static_figures(), dynamics::transient_figures()});
   return list;
 }
 

@@ -1,7 +1,6 @@
 #include "app/results/content_id.h"
 #include "app/systems/planetary/stage_response.h"
 #include "core/json.h"
-#include "core/units.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
@@ -44,18 +43,26 @@ Json modes_json(const StageModes& modes) {
 }
 
 Json motion_json(const StageMotion& m) {
-  return {{"pin_force_max_N", m.pin_force_max},
-          {"pin_force_mean_tangential_N", m.pin_force_mean_tangential},
-          {"load_zone_min_deg", json_number(m.load_zone_min / units::deg)},
-          {"sun_support_max_N", json_number(m.sun_support_max)},
-          {"ring_support_max_N", json_number(m.ring_support_max)},
-          {"carrier_support_max_N", json_number(m.carrier_support_max)},
-          {"held_torque_mean_N_m", json_number(m.held_torque_mean)},
-          {"sun_orbit_extent_m", json_number(m.sun_orbit_extent)},
-          {"sun_orbit_largest_m", json_number(m.sun_orbit_largest)},
-          {"section", m.section},
+  return {{"section", m.section},
           {"section_period_cycles", m.section_period ? Json(*m.section_period) : Json(nullptr)},
           {"section_clusters", m.section_clusters}};
+}
+
+/// Of pins, supports and the sun.
+Json bodies_json(const StageResponse& response) {
+  const auto& bodies = response.figures.bodies;
+  Json json = {{"pins", Json::array()}};
+  for (std::size_t n = 0; n < bodies.pins.size(); ++n) {
+    Json pin;
+    for (const auto& quantity : dynamics::pin_quantities)
+      pin[quantity.name] =
+          to_json(bodies.pins[n].*quantity.value, response.errors.find(dynamics::pin_key(n, quantity))->parts);
+    json["pins"].push_back(std::move(pin));
+  }
+  for (const auto& quantity : dynamics::body_quantities)
+    if (const auto* entry = response.errors.find(quantity.key))
+      json[quantity.key] = to_json(bodies.*quantity.value, entry->parts);
+  return json;
 }
 
 Json periodic_json(const std::optional<dynamics::PeriodicSolution>& periodic) {
@@ -94,6 +101,7 @@ std::string response_json(const StageResponse& response, const std::string& id) 
   for (const auto& kind : dynamics::stage_mesh_kinds) json[kind.name] = kind_json(response, kind);
   json["modes"] = modes_json(response.modes);
   json["motion"] = motion_json(response.motion);
+  json["bodies"] = bodies_json(response);
   return json.dump(2) + "\n";
 }
 

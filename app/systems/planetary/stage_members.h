@@ -36,13 +36,17 @@ ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
 ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_factor, mean_force, contact_loss,
                 back_flanks);
 ANNULUS_MEMBERS(dynamics::MeshKindResult, load_sharing, branches);
+ANNULUS_MEMBERS(dynamics::BodyResults::Pin, largest, tangential);
+ANNULUS_MEMBERS(dynamics::BodyResults, pins, pin_force, pin_load_zone, sun_support, ring_support, carrier_support,
+                held_torque, sun_orbit, sun_distance, sun_rms, sun_swing, sun_mesh_rms, sun_mesh_swing, ring_mesh_rms,
+                ring_mesh_swing);
 /// Without its time series.
 template <>
 struct Members<dynamics::DynamicResponse> {
   template <class Response>
   static auto of(Response& r) {
     return std::tie(static_cast<dynamics::SteadyOutcome&>(r), r.mesh_frequency, r.mean_mesh_force, r.sun_planet,
-                    r.ring_planet, r.cycle_force, r.force_balance_relative, r.shafts);
+                    r.ring_planet, r.cycle_force, r.force_balance_relative, r.bodies, r.shafts);
   }
 };
 
@@ -56,9 +60,8 @@ ANNULUS_MEMBERS(dynamics::StageTolerances, planet_pin_position, sun_eccentricity
 ANNULUS_MEMBERS(app::StageModes::Mode, frequency, frequency_error, error_parts, kind, damped_frequency, damping_ratio,
                 strain, kinetic);
 ANNULUS_MEMBERS(app::StageModes, groups, bodies, list, shapes, campbell, critical_speeds);
-ANNULUS_MEMBERS(app::StageMotion, pin_force_max, pin_force_mean, load_zone, sun_support, ring_support, carrier_support,
-                held_torque, orbit_extent, orbit_largest, section, section_period, section_clusters, bearing_forces,
-                space, sun_orbit, poincare);
+ANNULUS_MEMBERS(app::StageMotion, section, section_period, section_clusters, bearing_forces, space, sun_orbit,
+                poincare);
 ANNULUS_MEMBERS(app::StageResponse, figures, errors, modes, motion, load_sharing, force_factors, waveform,
                 sharing_waveform, spectrum, gauge_spectrum, time_series, reused);
 ANNULUS_MEMBERS(app::CouplingEffect::Row, model, averaged, instantaneous, quasi_static, sun_factor, ring_factor);

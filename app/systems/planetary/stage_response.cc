@@ -8,12 +8,13 @@
 #include "app/model/time_series.h"
 #include "app/results/content_id.h"
 #include "app/systems/planetary/alternative_stages.h"
-#include "app/systems/planetary/gauge_spectrum.h"
+#include "app/systems/planetary/strain_gauges.h"
 #include "app/systems/shared/face_loads.h"
 #include "core/errors.h"
 #include "core/file_guard.h"
 #include "core/files.h"
 #include "dynamics/figures/spectrum.h"
+#include "dynamics/systems/planetary/gauge_strain.h"
 
 namespace annulus::app {
 
@@ -89,6 +90,23 @@ void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, 
   }
 }
 
+/// Empty without gauges or lines.
+Csv gauge_spectrum(const dynamics::PlanetaryStage& stage, const Csv& gauges,
+                   const dynamics::DynamicResponse& response) {
+  const auto lines = dynamics::strain_lines(stage, gauge_curves(gauges), response);
+  if (!lines) return {};
+  Csv csv;
+  csv.columns = {"mesh_order", "carrier_order", "frequency_Hz"};
+  for (Eigen::Index g = 0; g < lines->amplitude.rows(); ++g)
+    csv.columns.push_back(fmt::format("gauge_{}_um_per_m", g + 1));
+  for (Eigen::Index i = 0; i < lines->order.size(); ++i) {
+    const double order = lines->order[i];
+    auto& row = csv.rows.emplace_back(std::vector{order, order * stage.ring_teeth, order * response.mesh_frequency});
+    row.insert(row.end(), lines->amplitude.col(i).begin(), lines->amplitude.col(i).end());
+  }
+  return csv;
+}
+
 /// The tables, each in a file of its own.
 template <class Response, class Visit>
 void for_each_stage_table(Response& r, Visit visit) {
@@ -156,7 +174,7 @@ StageResponse simulate_stage(const dynamics::PlanetaryStage& stage, const dynami
   check_power(stage, response, options.steady_tolerance);
   tabulate(result, response, stage.planets());
   result.motion = tabulated_motion(stage, response);
-  result.gauge_spectrum = gauge_spectrum(stage, tables.ring_mesh, response);
+  result.gauge_spectrum = gauge_spectrum(stage, tables.ring_mesh.gauges, response);
   for_each_stage_table(result, [](const char*, Csv& table) { table.round(); });
   result.time_series = time_series_table(response.series, response.window_cycles).text();
   response.series = {};

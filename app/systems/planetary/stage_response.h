@@ -30,7 +30,7 @@ struct StageResponse {
   Csv waveform;             ///< F / mean mesh force of every branch over the first mesh cycles of the window
   Csv sharing_waveform;     ///< N F / sum F of every branch over the same time
   Csv spectrum;             ///< force amplitude of every branch over frequency and mesh order
-  Csv gauge_spectrum;       ///< of strain gauges; empty without (gauge_spectrum.h)
+  Csv gauge_spectrum;       ///< of strain gauges (gauge_strain.h); empty without
   std::string time_series;  ///< the file of all motions and forces; empty once it is written
   bool reused = false;
 };

@@ -12,6 +12,7 @@
 #include "app/systems/planetary/ring_structures.h"
 #include "core/not_known.h"
 #include "core/units.h"
+#include "dynamics/systems/planetary/gauge_strain.h"
 
 namespace annulus::app {
 
@@ -206,17 +207,17 @@ std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::
   const auto& csv = ring_mesh.gauges;
   if (csv.rows.empty()) return std::nullopt;
   const auto angle = csv.column("ring_angle_deg");
-  const auto rows = csv.rows.size();
-  const double first = csv.rows[0][angle] * units::deg, step = csv.rows[1][angle] * units::deg - first;
-  const double turn = 2 * std::numbers::pi;
+  const auto samples = static_cast<int>(csv.rows.size());
+  const double first = csv.rows[0][angle] * units::deg;
+  Eigen::VectorXd planets(set.planets());
+  for (int n = 0; n < set.planets(); ++n) planets[n] = set.planet_angle(n);
   // Relative, of stresses in roots and on the rim: the strain is their multiple.
   const auto error_of = [&](Place place) {
     const auto stress = ring_mesh.largest_stress("ring", place == Place::root ? "root_von_mises" : "rim_von_mises");
     return stress ? stress->error_relative : not_known;
   };
   GaugeReadings readings;
-  for (std::size_t i = 0; i < rows; ++i)
-    readings.angle.push_back(turn * static_cast<double>(i) / static_cast<double>(rows));
+  for (int i = 0; i < samples; ++i) readings.angle.push_back(2 * std::numbers::pi * i / samples);
   const auto curves = gauge_curves(csv);
   std::size_t number = 0;
   for (std::size_t g = 0; g < planetary(scene).strain_gauges.size(); ++g) {
@@ -224,13 +225,8 @@ std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::
     if (input.ring && *input.ring != ring_mesh.model.variant) continue;
     for (const double position : positions_of(input)) {
       const auto& curve = curves.at(number++);
-      GaugeReading reading{name_at(input, position), g, {}};
-      for (const double carrier : readings.angle) {
-        double sum = 0;
-        for (int n = 0; n < set.planets(); ++n)
-          sum += curve((carrier + set.planet_angle(n) - first) / (step * static_cast<double>(rows)));
-        reading.strain.push_back(sum * micro);
-      }
+      GaugeReading reading{name_at(input, position), g, dynamics::strain_over_turn(curve, planets, first, samples)};
+      for (double& strain : reading.strain) strain *= micro;
       const auto [low, high] = std::minmax_element(reading.strain.begin(), reading.strain.end());
       reading.smallest = *low;
       reading.largest = *high;

@@ -77,6 +77,24 @@ void add_mesh_results(Json& ring, const StageResponse& response, const dynamics:
   ring["back_flanks"][mesh] = std::move(back);
 }
 
+/// Lists over the planets, and the largest forces of supports; all with their errors among the results of the variant.
+Json bearing_forces_json(const dynamics::BodyResults& bodies) {
+  auto largest = Json::array(), error = largest, tangential = largest;
+  for (const auto& pin : bodies.pins) {
+    largest.push_back(json_number(pin.largest.value));
+    error.push_back(json_number(pin.largest.error));
+    tangential.push_back(json_number(pin.tangential.value));
+  }
+  return {{"planet_max_N", std::move(largest)},
+          {"planet_max_error_N", std::move(error)},
+          {"planet_mean_tangential_N", std::move(tangential)},
+          {"load_zone_min_deg", json_number(bodies.pin_load_zone.value / units::deg)},
+          {"sun_support_max_N", json_number(bodies.sun_support.value)},
+          {"ring_support_max_N", json_number(bodies.ring_support.value)},
+          {"carrier_support_max_N", json_number(bodies.carrier_support.value)},
+          {"held_torque_mean_N_m", json_number(bodies.held_torque.value)}};
+}
+
 double worst(const MeshResult& a, const MeshResult& b, const std::string& fact) {
   const double x = a.fact(fact), y = b.fact(fact);
   if (std::isnan(x)) return y;
@@ -119,15 +137,10 @@ Json ring_json(const RunResult& result, std::size_t number) {
                                               {"error_parts", to_json(mode.error_parts)},
                                               {"kind", mode.kind}});
   const auto& m = ring.response->motion;
-  json["bearing_forces"] = {{"planet_max_N", m.pin_force_max},
-                            {"planet_mean_tangential_N", m.pin_force_mean_tangential},
-                            {"load_zone_min_deg", json_number(m.load_zone_min / units::deg)},
-                            {"sun_support_max_N", json_number(m.sun_support_max)},
-                            {"ring_support_max_N", json_number(m.ring_support_max)},
-                            {"carrier_support_max_N", json_number(m.carrier_support_max)},
-                            {"held_torque_mean_N_m", json_number(m.held_torque_mean)}};
+  json["bearing_forces"] = bearing_forces_json(f.bodies);
   add_json(json, m.space);
-  json["sun_orbit"] = {{"extent_m", json_number(m.sun_orbit_extent)}, {"largest_m", json_number(m.sun_orbit_largest)}};
+  json["sun_orbit"] = {{"extent_m", json_number(f.bodies.sun_orbit.value)},
+                       {"largest_m", json_number(f.bodies.sun_distance.value)}};
   json["poincare"] = {{"section", m.section},
                       {"period_cycles", m.section_period ? Json(*m.section_period) : Json(nullptr)},
                       {"clusters", m.section_clusters}};

@@ -27,6 +27,11 @@ double coefficient_of(const Scene& scene, const RollingMesh& rolling) {
                                                        .lubricant_factor = input.lubricant_factor});
 }
 
+/// Those of the mesh; where it has none, those of stiff teeth.
+PairShares known_shares(const RollingMesh& rolling, const PairShares& shares) {
+  return shares.phases > 0 ? shares : dynamics::even_shares(*rolling.pair);
+}
+
 Table squeeze_film_table() {
   Declarations<SqueezeInput> film(
       "squeeze_film",
@@ -70,10 +75,6 @@ Table friction_table() {
 
 std::vector<Table> friction_tables() { return {friction_table(), squeeze_film_table()}; }
 
-PairShares known_shares(const RollingMesh& rolling, const PairShares& shares) {
-  return shares.phases > 0 ? shares : dynamics::even_shares(*rolling.pair);
-}
-
 bool has_friction(const Scene& scene) {
   const auto input = scene.own<FrictionInput>();
   return input.coefficient || input.viscosity;
@@ -85,6 +86,13 @@ std::optional<dynamics::FlankFriction> flank_friction(const Scene& scene, const 
   const double along = forces == MeshForces::transverse ? to_normal(rolling) : 1;
   return dynamics::FlankFriction{along * coefficient_of(scene, rolling),
                                  dynamics::sliding_of(*rolling.pair, known_shares(rolling, shares))};
+}
+
+dynamics::MeshLosses mesh_losses(const Scene& scene, const std::string& mesh, const RollingMesh& rolling,
+                                 const PairShares& shares, int number) {
+  const auto known = known_shares(rolling, shares);
+  return dynamics::mesh_losses({mesh, rolling.pair, rolling.frequency, rolling.force, number},
+                               flank_friction(scene, rolling, known, MeshForces::transverse).value(), known);
 }
 
 std::optional<dynamics::SqueezeFilm> squeeze_film(const Scene& scene, const geometry::GearPair& pair,

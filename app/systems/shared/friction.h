@@ -8,7 +8,7 @@
 #include "app/scene/scene.h"
 #include "app/scene/scene_schema.h"
 #include "core/pair_shares.h"
-#include "dynamics/friction/flank_friction.h"
+#include "dynamics/friction/friction_losses.h"
 
 namespace annulus::geometry {
 class GearPair;
@@ -38,14 +38,15 @@ struct RollingMesh {
   double force = 0;      ///< N, transverse
 };
 
-/// Those of the mesh; where it has none, those of stiff teeth.
-[[nodiscard]] PairShares known_shares(const RollingMesh& rolling, const PairShares& shares);
-
 /// The forces of a mesh in a lumped model.
 enum class MeshForces { normal, transverse };
 /// Nothing without [friction].
 [[nodiscard]] std::optional<dynamics::FlankFriction> flank_friction(const Scene& scene, const RollingMesh& rolling,
                                                                     const PairShares& shares, MeshForces forces);
+
+/// What `number` of equal meshes lose. Needs [friction].
+[[nodiscard]] dynamics::MeshLosses mesh_losses(const Scene& scene, const std::string& mesh, const RollingMesh& rolling,
+                                               const PairShares& shares, int number);
 
 /// Oil within the backlash of a mesh; nothing without [squeeze_film].
 [[nodiscard]] std::optional<dynamics::SqueezeFilm> squeeze_film(const Scene& scene, const geometry::GearPair& pair,

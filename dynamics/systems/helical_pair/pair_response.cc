@@ -12,6 +12,7 @@
 #include "dynamics/figures/mesh_results.h"
 #include "dynamics/figures/motion.h"
 #include "dynamics/figures/peaks.h"
+#include "dynamics/figures/window_evidence.h"
 #include "dynamics/statics/static_solver.h"
 #include "dynamics/system/periods.h"
 
@@ -83,34 +84,12 @@ WindowPeaks peaks_of(const HelicalPair& pair, const LumpedSystem& system, const 
   return p;
 }
 
-/// What peaks_of() reads of a window.
-ResponseWindow every_second_sample(const ResponseWindow& window) {
-  const auto columns = Eigen::seqN(0, (window.time.size() + 1) / 2, Eigen::fix<2>);
-  ResponseWindow half;
-  half.time = window.time(columns);
-  for (const auto part : {&ResponseWindow::force, &ResponseWindow::displacement, &ResponseWindow::velocity})
-    half.*part = (window.*part)(Eigen::all, columns);
-  return half;
-}
-
 /// The peaks of the best window and those it is compared with, or bounds where only the forces are known.
 class PairEvidence {
  public:
   PairEvidence(const HelicalPair& pair, const LumpedSystem& system, const SteadyResponse& found)
-      : best_(peaks_of(pair, system, found.best)) {
-    for (const auto* other : {&found.before, &found.loose}) {
-      if (!*other) continue;
-      if ((*other)->displacement.size() > 0) {
-        others_.push_back(peaks_of(pair, system, **other));
-        continue;
-      }
-      const Eigen::Index stride = found.best.force.cols() / (*other)->force.cols();
-      for (Eigen::Index i = 0; i < (*other)->force.cols(); ++i)
-        force_difference_ =
-            std::max(force_difference_, std::abs(found.best.force(0, stride * i) - (*other)->force(0, i)));
-    }
-    // Behind jumps motions vibrate between the samples.
-    if (found.best.jumps()) others_.push_back(peaks_of(pair, system, every_second_sample(found.best)));
+      : best_(peaks_of(pair, system, found.best)), force_difference_(force_difference(found, 1)) {
+    for (const auto& window : compared_windows(found)) others_.push_back(peaks_of(pair, system, window));
     // b / m: acceleration per force.
     const Eigen::VectorXd b = system.mesh_vector(0).cwiseAbs();
     for (int i = 0; i < system.dofs(); ++i)

@@ -23,7 +23,7 @@ namespace {
 /// Motion of the stage over time by DOF or spring; rigid ones give zeros.
 class Motion {
  public:
-  Motion(const PlanetaryStage& stage, const TimeSeries& series) : system_(assemble(stage)), series_(series) {
+  Motion(const LumpedSystem& system, const TimeSeries& series) : system_(system), series_(series) {
     require(series.dofs == system_.names(),
             fmt::format("a time series of {} degrees of freedom belongs to another stage than this one of {}",
                         series.dofs.size(), system_.dofs()));
@@ -69,7 +69,7 @@ class Motion {
     return values.row(i);
   }
 
-  LumpedSystem system_;
+  const LumpedSystem& system_;
   const TimeSeries& series_;
   Eigen::MatrixXd acceleration_;
 };
@@ -208,12 +208,11 @@ SupportReaction applied(const PlanetaryStage& stage, const TimeSeries& series, M
 
 /// Sum of the transverse forces of a body's bearings on the housing, 2 x times; nothing where one is rigid, or in a
 /// plane stage.
-std::optional<Eigen::MatrixXd> bearings_on_housing(const PlanetaryStage& stage, const TimeSeries& series,
-                                                   StageMember member) {
+std::optional<Eigen::MatrixXd> bearings_on_housing(const PlanetaryStage& stage, const SpaceMotion& motion,
+                                                   Eigen::Index times, StageMember member) {
   if (!stage.space) return std::nullopt;
   const auto kind = kind_of(member);
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(2, series.time.size());
-  const auto motion = space_motion(stage, series);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(2, times);
   for (const auto& b : stage.space->bearings)
     if (b.body.kind == kind && b.on.kind == StageBody::Kind::housing && (b.rigid[0] || b.rigid[1])) return std::nullopt;
   for (const auto& b : motion.bearings)
@@ -221,20 +220,13 @@ std::optional<Eigen::MatrixXd> bearings_on_housing(const PlanetaryStage& stage, 
   return sum;
 }
 
-}  // namespace
-
-BearingForces bearing_forces(const PlanetaryStage& stage, const TimeSeries& series) {
-  Motion motion(stage, series);
-  return pin_forces(stage, series, motion);
-}
-
-SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& series, StageMember member) {
+SupportReaction reaction_of(const PlanetaryStage& stage, const TimeSeries& series, Motion& motion,
+                            const SpaceMotion& space, StageMember member) {
   const auto& body = stage.body(member);
   const std::string name = to_string(member);
-  Motion motion(stage, series);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(series.time.size());
   SupportReaction result{zero, zero, zero};
-  const auto in_space = bearings_on_housing(stage, series, member);
+  const auto in_space = bearings_on_housing(stage, space, series.time.size(), member);
   if (in_space) {
     result.x = in_space->row(0).transpose();
     result.y = in_space->row(1).transpose();
@@ -253,10 +245,32 @@ SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& 
   if (const auto* spring = motion.spring(name + "_support_y"))
     result.y = (motion.force(*spring) + spring->damping * speed * motion.displacement(name + "_x")).transpose();
   if (member == StageMember::ring && stage.space && stage.space->coupling_that_turns({StageBody::Kind::ring}))
-    result.torque = -space_motion(stage, series).turning_torque;
+    result.torque = -space.turning_torque;
   else if (const auto* spring = motion.spring(name + "_support_u"))
     result.torque = body.radius * motion.force(*spring).transpose();
   return result;
+}
+
+}  // namespace
+
+BearingForces bearing_forces(const PlanetaryStage& stage, const TimeSeries& series) {
+  const auto system = assemble(stage);
+  Motion motion(system, series);
+  return pin_forces(stage, series, motion);
+}
+
+SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& series, StageMember member) {
+  const auto system = assemble(stage);
+  Motion motion(system, series);
+  return reaction_of(stage, series, motion, space_motion(stage, series), member);
+}
+
+StageForces stage_forces(const PlanetaryStage& stage, const LumpedSystem& system, const TimeSeries& series) {
+  Motion motion(system, series);
+  const auto space = space_motion(stage, system, series);
+  const auto reaction = [&](StageMember member) { return reaction_of(stage, series, motion, space, member); };
+  return {pin_forces(stage, series, motion), reaction(StageMember::sun), reaction(StageMember::ring),
+          reaction(StageMember::carrier)};
 }
 
 }  // namespace annulus::dynamics

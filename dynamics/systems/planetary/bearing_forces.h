@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "dynamics/steady_state/steady_response.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
-#include "dynamics/systems/planetary/response.h"
 
 namespace annulus::dynamics {
 
@@ -31,5 +31,13 @@ struct SupportReaction {
 };
 [[nodiscard]] SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& series,
                                                geometry::StageMember member);
+
+struct StageForces {
+  BearingForces pins;
+  SupportReaction sun, ring, carrier;
+};
+/// All of them. `system`: assemble(stage).
+[[nodiscard]] StageForces stage_forces(const PlanetaryStage& stage, const LumpedSystem& system,
+                                       const TimeSeries& series);
 
 }  // namespace annulus::dynamics

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "dynamics/figures/common_figures.h"
 
 namespace annulus::dynamics {
@@ -44,22 +46,6 @@ void declare_meshes(std::vector<FigureSpec>& list, const StageMeshKind& kind, co
                                      "largest over the planets of the fraction of the time in which no tooth touches"));
 }
 
-void declare_motion(std::vector<FigureSpec>& list, const std::string& prefix, const std::string& title,
-                    const std::string& definition, const std::string& plotted = "") {
-  const auto add = [&](const char* key, const char* axis, const char* reduced) {
-    list.push_back({.key = prefix + key,
-                    .title = title,
-                    .unit = "µm",
-                    .scale = 1e6,
-                    .axis = axis,
-                    .definition = reduced + definition,
-                    .effort = FigureEffort::motion,
-                    .plotted = plotted == key});
-  };
-  add("_rms_m", "rms, µm", "root mean square of ");
-  add("_peak_to_peak_m", "peak to peak, µm", "peak-to-peak value of ");
-}
-
 std::vector<FigureSpec> planetary_specs() {
   std::vector<FigureSpec> list;
   declare_meshes(list, stage_mesh_kinds[0], "sun meshes");
@@ -67,11 +53,8 @@ std::vector<FigureSpec> planetary_specs() {
   list.push_back(shaft_figure());
   list.push_back(steady_figure());
   list.push_back(motions_figure());
-  declare_motion(list, "sun", "Motion of the sun", "the distance of the sun's centre from its mean position", "_rms_m");
-  declare_motion(list, "sun_planet_deflection", "Deflection of the sun mesh",
-                 "the deflection of the sun mesh with the largest motion");
-  declare_motion(list, "ring_planet_deflection", "Deflection of the ring mesh",
-                 "the deflection of the ring mesh with the largest motion", "_peak_to_peak_m");
+  const auto bodies = body_figures();
+  list.insert(list.end(), bodies.begin(), bodies.end());
   const auto frequencies = frequency_specs(
       planetary_frequencies,
       "distinct undamped natural frequencies above zero, rising, at rest and with the mean mesh stiffness");
@@ -102,6 +85,8 @@ FigureSet figures(const DynamicResponse& response) {
     for (const auto& quantity : branch_quantities)
       set.set(fmt::format("{}_{}", kind.name, quantity.name), largest(branches, quantity.value));
   }
+  for (const auto& quantity : body_quantities)
+    if (const auto& value = response.bodies.*quantity.value; !std::isnan(value.value)) set.set(quantity.key, value);
   add_shafts(set, response.shafts);
   set.set("steady", response.steady ? 1 : 0);
   set.set(motions_key, number_of(response.motions));

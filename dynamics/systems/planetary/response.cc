@@ -101,6 +101,7 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
       averaging_force(found.best).topRows(2 * static_cast<Eigen::Index>(stage.planets())), found.window_cycles);
   response.force_balance_relative = force_balance(stage, system, found);
   set_figures(stage, options, found, response);
+  response.bodies = body_results(stage, system, found);
   response.shafts = shaft_results(system, stage.rotors, stage.shaft_ends(), found);
   if (options.keep_series) response.series = series_of(system, std::move(found.best));
   return response;

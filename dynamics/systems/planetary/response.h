@@ -4,6 +4,7 @@
 
 #include "dynamics/figures/mesh_results.h"
 #include "dynamics/figures/shaft_results.h"
+#include "dynamics/systems/planetary/body_results.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::dynamics {
@@ -21,6 +22,7 @@ struct DynamicResponse : SteadyOutcome {
   /// Momentum balance of the sun's rotation over the window, relative to T_s: mean of sum F_sn r_bs (and of its
   /// torsional support, and the change of angular momentum) against T_s.
   double force_balance_relative = 0;
+  BodyResults bodies;
   std::vector<ShaftResult> shafts;
   TimeSeries series;
 };

@@ -5,6 +5,10 @@
 namespace annulus::dynamics {
 
 SpaceMotion space_motion(const PlanetaryStage& stage, const TimeSeries& series) {
+  return stage.space ? space_motion(stage, assemble(stage), series) : SpaceMotion{};
+}
+
+SpaceMotion space_motion(const PlanetaryStage& stage, const LumpedSystem& lumped, const TimeSeries& series) {
   if (!stage.space) return {};
   LumpedSystemBuilder builder;
   const auto forms = add_bodies_in_space(builder, stage);
@@ -16,7 +20,7 @@ SpaceMotion space_motion(const PlanetaryStage& stage, const TimeSeries& series) 
   const auto planets = static_cast<std::size_t>(stage.planets());
   system.faces.assign(planets, &stage.space->sun_face);
   system.faces.resize(2 * planets, &stage.space->ring_face);
-  return motion_in_space(*stage.space, system, assemble(stage), series);
+  return motion_in_space(*stage.space, system, lumped, series);
 }
 
 }  // namespace annulus::dynamics

@@ -17,12 +17,6 @@ Orbit orbit(const PlanetaryStage& stage, const TimeSeries& series, const std::st
   const Eigen::ArrayXd angle = stage.carrier_speed * series.time.array();
   result.housing_x = (angle.cos() * result.x.array() - angle.sin() * result.y.array()).matrix();
   result.housing_y = (angle.sin() * result.x.array() + angle.cos() * result.y.array()).matrix();
-  if (series.time.size() == 0) return result;
-  result.mean_x = result.x.mean();
-  result.mean_y = result.y.mean();
-  result.extent =
-      std::sqrt(((result.x.array() - result.mean_x).square() + (result.y.array() - result.mean_y).square()).maxCoeff());
-  result.largest = std::sqrt((result.x.array().square() + result.y.array().square()).maxCoeff());
   return result;
 }
 
@@ -41,10 +35,7 @@ SectionAccuracy section_accuracy(const PlanetaryStage& stage, const DynamicRespo
 StageMotion stage_motion(const PlanetaryStage& stage, const DynamicResponse& response) {
   const auto& series = response.series;
   const auto samples_per_cycle = static_cast<int>(series.time.size() / response.window_cycles);
-  StageMotion motion{bearing_forces(stage, series),
-                     support_reaction(stage, series, geometry::StageMember::sun),
-                     support_reaction(stage, series, geometry::StageMember::ring),
-                     support_reaction(stage, series, geometry::StageMember::carrier),
+  StageMotion motion{stage_forces(stage, assemble(stage), series),
                      orbit(stage, series),
                      poincare_section(stage, series, samples_per_cycle),
                      {}};

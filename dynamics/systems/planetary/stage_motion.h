@@ -13,17 +13,13 @@ namespace annulus::dynamics {
 struct Orbit {
   Eigen::VectorXd x, y;                  ///< in the frame of the carrier
   Eigen::VectorXd housing_x, housing_y;  ///< in the housing; the frames coincide at time 0
-  double mean_x = 0, mean_y = 0;         ///< in the frame of the carrier
-  double extent = 0;                     ///< largest distance from that mean
-  double largest = 0;                    ///< largest distance from the axis of the housing
 };
 /// `body`: "sun", "ring" or "carrier". The orbit is zero when its support is rigid.
 [[nodiscard]] Orbit orbit(const PlanetaryStage& stage, const TimeSeries& series, const std::string& body = "sun");
 
 /// What bearings, supports and the sun do over the evaluated window.
 struct StageMotion {
-  BearingForces pins;
-  SupportReaction sun_support, ring_support, carrier_support;
+  StageForces forces;
   Orbit sun_orbit;
   PoincareSection section;
   SectionPattern pattern;  ///< period_1 too where the section is one error period that the window before confirms

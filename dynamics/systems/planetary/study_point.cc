@@ -38,19 +38,6 @@ DynamicResponse response_of_point(const PlanetaryStage& stage, const PointOption
   return simulate(stage, simulation);
 }
 
-/// Distance of the sun's centre from its mean position; peak to peak: the larger one of x and y.
-MotionRange sun_motion(const LumpedSystem& system, const TimeSeries& series) {
-  const int x = system.find("sun_x"), y = system.find("sun_y");
-  if (x < 0 || y < 0) return {not_known, not_known};
-  const MotionRange a = motion_range(series.displacement.row(x)), b = motion_range(series.displacement.row(y));
-  return {std::hypot(a.rms, b.rms), std::max(a.peak_to_peak, b.peak_to_peak)};
-}
-
-void set_motion(FigureSet& figures, const std::string& what, const MotionRange& range) {
-  figures.set(what + "_rms_m", range.rms);
-  figures.set(what + "_peak_to_peak_m", range.peak_to_peak);
-}
-
 }  // namespace
 
 PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& options) {
@@ -60,10 +47,6 @@ PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& opt
   const auto system = assemble(stage);
   const auto& series = response.series;
   const Eigen::MatrixXd delta = deflections(system, series.time, series.displacement);
-  set_motion(point.figures, "sun", sun_motion(system, series));
-  set_motion(point.figures, "sun_planet_deflection", largest_range(delta.topRows(stage.planets())));
-  set_motion(point.figures, "ring_planet_deflection",
-             largest_range(delta.middleRows(stage.planets(), stage.planets())));
   point.figures.add(frequency_figures(modes(stage), planetary_frequencies, Multiples::once));
   const Eigen::Index per_cycle = series.time.size() / response.window_cycles;
   for (int c = 0; c < std::min(options.poincare_cycles, response.window_cycles); ++c)
@@ -71,6 +54,6 @@ PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& opt
   return point;
 }
 
-const char* point_method() { return "harmonic balance 4"; }
+const char* point_method() { return "harmonic balance 5"; }
 
 }  // namespace annulus::dynamics

@@ -56,20 +56,38 @@ OutputError quasi_static_error(TwoKVStage stage, int positions_per_cycle, Eigen:
   return error;
 }
 
+enum class Times { sampled, closest };
+
+/// Of the resultant of two meshes, from the `first` one on.
+Peak largest_resultant(const ResponseWindow& window, Eigen::Index first, Times times) {
+  const auto resultant = [first](const Eigen::MatrixXd& force) -> Eigen::RowVectorXd {
+    return force.middleRows(first, 2).colwise().norm();
+  };
+  const bool closer = times == Times::closest && window.dense_force.size() > 0;
+  auto largest = peak_of(resultant(closer ? window.dense_force : window.force),
+                         closer ? window.dense_after_jump : window.after_jump);
+  if (!window.jumps()) return largest;
+  for (const auto* side : {&window.force_before, &window.force_after}) {
+    const double jump = resultant(*side).maxCoeff();
+    largest = higher(largest, {jump, jump});
+  }
+  return largest;
+}
+
 /// The two linear meshes of every bearing follow the toothed ones, tangential before radial.
 std::vector<ArcBearingResult> bearing_results(const TwoKVStage& stage, const SteadyResponse& steady) {
   std::vector<ArcBearingResult> results;
+  const Eigen::MatrixXd averaging = averaging_force(steady.best);
   Eigen::Index m = stage.cranks + stage.arc_gears;
   for (int i = 0; i < stage.cranks; ++i)
     for (int j = 0; j < stage.arc_gears; ++j, m += 2) {
-      const auto resultant = [m](const ResponseWindow& window) -> Eigen::RowVectorXd {
-        return window.force.middleRows(m, 2).colwise().norm();
-      };
-      const auto force = resultant(steady.best);
-      auto largest = figure(peak_of(force), {});
+      const auto sampled = largest_resultant(steady.best, m, Times::sampled);
+      // Behind jumps forces vibrate between the samples.
+      auto largest = steady.best.jumps() ? figure(largest_resultant(steady.best, m, Times::closest), {sampled})
+                                         : figure(sampled, {});
       for (const auto* other : {&steady.before, &steady.loose})
-        if (*other) largest.error += std::abs(largest.value - peak_of(resultant(**other)).refined);
-      results.push_back({i, j, largest, force.mean()});
+        if (*other) largest.error += std::abs(sampled.refined - largest_resultant(**other, m, Times::sampled).refined);
+      results.push_back({i, j, largest, averaging.middleRows(m, 2).colwise().norm().mean()});
     }
   return results;
 }

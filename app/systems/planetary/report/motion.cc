@@ -21,30 +21,17 @@ std::string section_words(const StageMotion& m) {
 PageTable motion_table(const RunResult& result) {
   std::vector<TableRow<StageResponse>> rows;
   const auto responses = responses_of(result);
-  const auto row = [&](const std::string& label, const ShownUnit& declared, double (*value)(const StageMotion&)) {
+  for (const auto& declared : dynamics::body_figures()) {
     std::vector<double> values;
-    for (const auto& [name, response] : responses) values.push_back(value(response->motion));
-    const auto shown = readable_unit(declared, values);
-    rows.push_back({with_unit(label, shown.unit),
-                    [=](const StageResponse& r) { return Text(to_text(shown.scale * value(r.motion), 4)); }});
-  };
-  using shown_units::force;
-  row("largest force on a planet pin", force,
-      [](const StageMotion& m) { return *std::max_element(m.pin_force_max.begin(), m.pin_force_max.end()); });
-  row("mean tangential force, all pins", force, [](const StageMotion& m) {
-    const auto& f = m.pin_force_mean_tangential;
-    return std::accumulate(f.begin(), f.end(), 0.0) / static_cast<double>(f.size());
-  });
-  if (planetary(result.scene).supports.planet_clearance > 0)
-    rows.push_back({"smallest load zone of a planet bearing, degrees",
-                    [](const StageResponse& r) { return Text(to_text(r.motion.load_zone_min / units::deg, 3)); }});
-  row("largest force on the sun's support", force, [](const StageMotion& m) { return m.sun_support_max; });
-  row("largest force on the ring's support", force, [](const StageMotion& m) { return m.ring_support_max; });
-  row("largest force on the carrier's support", force, [](const StageMotion& m) { return m.carrier_support_max; });
-  row("mean torque on the housing through the held member", shown_units::torque,
-      [](const StageMotion& m) { return m.held_torque_mean; });
-  row("sun orbit, largest distance from its mean", shown_units::length,
-      [](const StageMotion& m) { return m.sun_orbit_extent; });
+    for (const auto& [name, response] : responses)
+      if (const auto* entry = response->errors.find(declared.key)) values.push_back(entry->figure.value);
+    if (values.empty()) continue;
+    const auto spec = in_readable_unit(declared, values);
+    rows.push_back({with_unit(spec.title, spec.axis_label()), [spec](const StageResponse& r) {
+                      const auto* entry = r.errors.find(spec.key);
+                      return Text(entry ? measured(entry->figure, spec.scale) : "–");
+                    }});
+  }
   rows.push_back({"repetition of the motion", [](const StageResponse& r) { return Text(section_words(r.motion)); }});
   return side_by_side(responses, rows);
 }
@@ -83,7 +70,7 @@ Blocks orbits(const RunResult& result) {
   std::vector<Plot> plots;
   for (const auto& [name, response] : responses_of(result)) {
     const auto& m = response->motion;
-    if (m.sun_orbit_largest == 0) continue;  // held
+    if (!(response->figures.bodies.sun_distance.value > 0)) continue;  // held
     const Plot orbit = line_plot({.title = name, .x_label = "x, µm", .y_label = "y, µm"}, m.sun_orbit,
                                  {.x = "x_m", .x_scale = 1e6, .y_scale = 1e6, .rows_to = shown_cycles},
                                  {{.column = "y_m", .label = "orbit", .colour = 5}});

@@ -1,29 +1,25 @@
-#include "app/systems/planetary/gauge_spectrum.h"
+#include "dynamics/systems/planetary/gauge_strain.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
 
 /// Strain gauges on a ring past which planets carry their forces.
-BOOST_AUTO_TEST_SUITE(gauge_spectrum)
+BOOST_AUTO_TEST_SUITE(gauge_strain)
 
 using namespace annulus;
 
 constexpr double pi = std::numbers::pi;
 
-/// A gauge whose strain under one planet is cos(`waves` x turns), µm/m, at eight places per tooth; the table begins
-/// with the contact in the pitch point, where the planet is not over the middle of a tooth.
-app::MeshResult ring_with_gauge(int teeth, int waves) {
-  app::MeshResult mesh;
-  mesh.gauges.columns = {"ring_angle_deg", "gauge_1_um_per_m"};
-  for (int i = 0; i < 8 * teeth; ++i) {
-    const double angle = 2 * pi * i / (8 * teeth);
-    mesh.gauges.rows.push_back({angle * 180 / pi + 90.0 / teeth, std::cos(waves * angle)});
-  }
-  return mesh;
+/// A gauge whose strain under one planet is cos(`waves` x turns), at eight places per tooth.
+PeriodicCurve gauge_on(int teeth, int waves) {
+  std::vector<double> strain;
+  for (int i = 0; i < 8 * teeth; ++i) strain.push_back(std::cos(waves * 2 * pi * i / (8 * teeth)));
+  return {strain, 8 * teeth};
 }
 
 /// One mesh cycle of forces of the ring meshes: the mean, and a wave of `share` of it at the mesh frequency, in the
@@ -62,9 +58,9 @@ dynamics::PlanetaryStage stage_of() {
   return stage;
 }
 
-double line(const Csv& csv, double carrier_order) {
-  for (const auto& row : csv.rows)
-    if (std::abs(row[1] - carrier_order) < 1e-6) return row[3];
+double line(const dynamics::StrainLines& lines, double order) {
+  for (Eigen::Index i = 0; i < lines.order.size(); ++i)
+    if (std::abs(lines.order[i] - order) < 1e-9) return lines.amplitude(0, i);
   return 0;
 }
 
@@ -75,9 +71,10 @@ BOOST_AUTO_TEST_CASE(sidebands_of_passing_planets) {
   const auto stage = stage_of();
   const int teeth = stage.ring_teeth;  // 162: two more than a multiple of the planets
   for (const int waves : {1, 2, 4}) {
-    const auto csv = app::gauge_spectrum(stage, ring_with_gauge(teeth, waves), motion_of(stage, 0.2));
-    const auto near = [&](const std::string& what, double order, double expected) {
-      record.near(what, "µm/m", line(csv, order), expected, 1e-4, "interpolation of the gauge's curve");
+    const auto lines = dynamics::strain_lines(stage, {gauge_on(teeth, waves)}, motion_of(stage, 0.2)).value();
+    const auto near = [&](const std::string& what, int carrier_order, double expected) {
+      const double order = static_cast<double>(carrier_order) / teeth;
+      record.near(what, "", line(lines, order), expected, 1e-4, "interpolation of the gauge's curve");
     };
     near("line of passing planets", waves, waves % 4 == 0 ? 4 : 0);
     for (const int side : {-1, 1})
@@ -90,8 +87,23 @@ BOOST_AUTO_TEST_CASE(motions_that_do_not_repeat_have_none) {
   const auto stage = stage_of();
   auto response = motion_of(stage, 0.2);
   response.steady = false;
-  BOOST_TEST(app::gauge_spectrum(stage, ring_with_gauge(stage.ring_teeth, 1), response).rows.empty());
-  BOOST_TEST(app::gauge_spectrum(stage, app::MeshResult(), motion_of(stage, 0.2)).rows.empty());
+  BOOST_TEST(!dynamics::strain_lines(stage, {gauge_on(stage.ring_teeth, 1)}, response));
+  BOOST_TEST(!dynamics::strain_lines(stage, {}, motion_of(stage, 0.2)));
+}
+
+// cos w (t + a) summed over four planets at a = n / 4 turns is 4 cos w t where w is a multiple of 4, and nothing else.
+BOOST_AUTO_TEST_CASE(strain_of_passing_planets) {
+  test::Verification record("Strain under equal planets over a turn", "closed form");
+  const Eigen::VectorXd angles = Eigen::Vector4d(0, 1, 2, 3) * pi / 2;
+  const double first = 0.3;
+  for (const int waves : {1, 2, 4}) {
+    const auto strain = dynamics::strain_over_turn(gauge_on(162, waves), angles, first, 90);
+    double apart = 0;
+    for (int i = 0; i < 90; ++i)
+      apart = std::max(apart, std::abs(strain.at(static_cast<std::size_t>(i)) -
+                                       (waves % 4 == 0 ? 4 * std::cos(waves * (2 * pi * i / 90 - first)) : 0)));
+    record.near("largest difference", "", apart, 0, 1e-4, "interpolation of the gauge's curve");
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,4 +1,4 @@
-#include "app/systems/shared/friction_losses.h"
+#include "dynamics/friction/friction_losses.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "core/not_known.h"
 #include "geometry/gear_pair.h"
 
-namespace annulus::app {
+namespace annulus::dynamics {
 
 namespace {
 
@@ -20,25 +20,22 @@ PairShares coarser(const PairShares& shares) {
 
 }  // namespace
 
-MeshLosses mesh_losses(const Scene& scene, const std::string& mesh, const RollingMesh& rolling,
-                       const PairShares& shares, int number) {
-  const auto friction = flank_friction(scene, rolling, shares, MeshForces::transverse).value();
-  const auto known = known_shares(rolling, shares);
-  const auto& pair = *rolling.pair;
+MeshLosses mesh_losses(const LossyMesh& mesh, const FlankFriction& friction, const PairShares& shares) {
+  const auto& pair = *mesh.pair;
   const double teeth = 1.0 / pair.pinion().teeth() + (pair.internal() ? -1.0 : 1.0) / pair.wheel().teeth();
   const double over_distance =
-      number * friction.coefficient * rolling.force * 2 * std::numbers::pi * rolling.frequency * teeth;
+      mesh.number * friction.coefficient * mesh.force * 2 * std::numbers::pi * mesh.frequency * teeth;
   const double distance = friction.sliding.distance.mean(), power = over_distance * distance;
-  const double of_phases =
-      known.phases % 2 == 0
-          ? over_distance * std::abs(dynamics::sliding_of(pair, coarser(known)).distance.mean() - distance)
-          : not_known;
+  const double of_phases = shares.phases % 2 == 0
+                               ? over_distance * std::abs(sliding_of(pair, coarser(shares)).distance.mean() - distance)
+                               : not_known;
   // Torque of the friction over that of the mesh force, on the smaller of both gears.
   const double of_force =
       friction.coefficient * (std::abs(friction.sliding.side.mean()) * std::tan(pair.working_pressure_angle()) +
                               distance / std::min(pair.pinion().base_radius(), pair.wheel().base_radius()));
-  return {
-      mesh, friction.coefficient * std::cos(pair.pinion().base_helix_angle()), {power, of_phases + of_force * power}};
+  return {mesh.name,
+          friction.coefficient * std::cos(pair.pinion().base_helix_angle()),
+          {power, of_phases + of_force * power}};
 }
 
 const FigureSpec& efficiency_figure() {
@@ -97,4 +94,4 @@ void add_losses(FigureSet& figures, const std::vector<MeshLosses>& losses, doubl
   figures.set(efficiency_figure().key, {1 - lost.value / power, lost.error / power});
 }
 
-}  // namespace annulus::app
+}  // namespace annulus::dynamics

@@ -1,0 +1,56 @@
+#include "dynamics/figures/window_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace annulus::dynamics {
+
+ResponseWindow every_second_sample(const ResponseWindow& window) {
+  const auto columns = Eigen::seqN(0, (window.time.size() + 1) / 2, Eigen::fix<2>);
+  ResponseWindow half;
+  half.samples_per_cycle = window.samples_per_cycle / 2;
+  half.time = window.time(columns);
+  for (const auto part : {&ResponseWindow::force, &ResponseWindow::displacement, &ResponseWindow::velocity})
+    half.*part = (window.*part)(Eigen::all, columns);
+  return half;
+}
+
+double force_difference(const SteadyResponse& found, Eigen::Index meshes) {
+  double largest = 0;
+  for (const auto* other : {&found.before, &found.loose}) {
+    if (!*other || (*other)->displacement.size() > 0) continue;
+    const auto& force = (*other)->force;
+    const Eigen::Index stride = found.best.force.cols() / force.cols();
+    const auto best = found.best.force(Eigen::seqN(0, meshes), Eigen::seqN(0, force.cols(), stride));
+    largest = std::max(largest, (best - force.topRows(meshes)).cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+std::vector<ResponseWindow> compared_windows(const SteadyResponse& found) {
+  std::vector<ResponseWindow> others;
+  for (const auto* other : {&found.before, &found.loose})
+    if (*other && (*other)->displacement.size() > 0) others.push_back(**other);
+  if (found.best.jumps()) others.push_back(every_second_sample(found.best));
+  return others;
+}
+
+std::vector<Figure> window_figures(const SteadyResponse& found, Eigen::Index meshes,
+                                   const std::function<std::vector<WindowValue>(const ResponseWindow&)>& values) {
+  const auto best = values(found.best);
+  const double difference = force_difference(found, meshes);
+  std::vector<Figure> figures;
+  for (const auto& value : best) {
+    figures.push_back(figure(value.peak, {}));
+    figures.back().error += value.per_force * difference;
+  }
+  for (const auto& window : compared_windows(found)) {
+    const auto other = values(window);
+    for (std::size_t i = 0; i < best.size(); ++i)
+      figures[i].error += std::abs(best[i].peak.refined - other[i].peak.refined);
+  }
+  return figures;
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/figure.h"
+#include "dynamics/figures/peaks.h"
+#include "dynamics/steady_state/steady_response.h"
+
+/// Results that are read from the motion in a steady state, and the windows of it that should agree about them.
+namespace annulus::dynamics {
+
+/// Every second time of a window, without its jumps and closer times.
+[[nodiscard]] ResponseWindow every_second_sample(const ResponseWindow& window);
+
+/// The largest difference (N) of a mesh force to other windows of which only the forces are known; 0 where there are
+/// none. `meshes`: that many, the first ones.
+[[nodiscard]] double force_difference(const SteadyResponse& found, Eigen::Index meshes);
+
+/// Other windows with motion that should agree with the best one: the one before or the periodic solution, and the one
+/// of a looser integration. Behind jumps motions may vibrate between the samples: then also every second of them.
+[[nodiscard]] std::vector<ResponseWindow> compared_windows(const SteadyResponse& found);
+
+/// A value of a window, and by how much it may change with a mesh force.
+struct WindowValue {
+  Peak peak{};
+  double per_force = 0;  ///< its unit per N
+};
+/// The values of the best window. Their errors contain the sampling, the differences to the compared windows, and the
+/// difference of the forces of the first `meshes` meshes where nothing else is known. `values` gives the same number of
+/// values for every window.
+[[nodiscard]] std::vector<Figure> window_figures(
+    const SteadyResponse& found, Eigen::Index meshes,
+    const std::function<std::vector<WindowValue>(const ResponseWindow&)>& values);
+
+}  // namespace annulus::dynamics
