@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -35,9 +36,14 @@ class InternalError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// Throws InternalError with `what` when `condition` does not hold. For invariants, never for user input.
-inline void require(bool condition, const std::string& what) {
-  if (!condition) throw InternalError("internal error: " + what);
+/// Throws InternalError with the text of all `parts` when `condition` does not hold. For invariants, never for user
+/// input.
+template <class... Parts>
+void require(bool condition, const Parts&... parts) {
+  if (condition) return;
+  std::ostringstream text;
+  ((text << "internal error: ") << ... << parts);
+  throw InternalError(text.str());
 }
 
 }  // namespace annulus

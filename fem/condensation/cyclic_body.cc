@@ -20,7 +20,7 @@ std::pair<int, bool> locate(int offset, int sectors, int max_offset) {
   if (d < 0) d += sectors;
   const bool mirrored = d > sectors - d;
   if (mirrored) d = sectors - d;
-  require(d <= max_offset, "a compliance beyond the formed offsets was asked for");
+  require(d <= max_offset, "a compliance over ", d, " sectors was asked for, formed are ", max_offset);
   return {d, mirrored};
 }
 
@@ -111,7 +111,7 @@ void CyclicCompliance::add_interface_displacement(int offset, const Eigen::Matri
 CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, const RingExtent& extent,
                               SectorSupport support, int threads, const Eigen::MatrixXd& probes,
                               std::vector<Eigen::MatrixXd>* carried) {
-  require(sectors >= 3, "a ring needs at least three sectors");
+  require(sectors >= 3, "a ring needs at least three sectors, not ", sectors);
   const int max_offset = std::min(extent.max_offset, sectors / 2);
   const int offsets = extent.whole_ring ? sectors / 2 + 1 : std::min(max_offset + 1, sectors / 2) + 1;
   const HarmonicMatrix harmonics(sector, support);

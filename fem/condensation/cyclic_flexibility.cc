@@ -12,7 +12,7 @@ namespace annulus::fem {
 
 CyclicFlexibility::CyclicFlexibility(int sectors, std::vector<Eigen::MatrixXcd> harmonics)
     : sectors_(sectors), harmonics_(std::move(harmonics)) {
-  require(static_cast<int>(harmonics_.size()) == sectors / 2 + 1, "a cyclic flexibility lacks harmonics");
+  require(static_cast<int>(harmonics_.size()) == sectors / 2 + 1, "a cyclic flexibility of ", sectors, " sectors has ", harmonics_.size(), " harmonics");
   const auto n = harmonics_.front().rows();
   const double pitch = 2 * M_PI / sectors;
   blocks_.assign(sectors, Eigen::MatrixXd::Zero(n, n));
@@ -35,7 +35,7 @@ const Eigen::MatrixXd& CyclicFlexibility::block(int offset) const {
 
 CyclicFlexibility compose_loads(const CondensedSector& sector, int sectors, SectorSupport support, double scale,
                                 int threads) {
-  require(sectors >= 3, "a ring needs at least three sectors");
+  require(sectors >= 3, "a ring needs at least three sectors, not ", sectors);
   const HarmonicMatrix interfaces(sector, support);
   const auto loads = sector.compliance.cols();
   const Eigen::MatrixXcd low = interfaces.load_low().leftCols(loads), high = interfaces.load_high().leftCols(loads);

@@ -59,13 +59,13 @@ void invert_from_cholesky(Eigen::MatrixXcd& factor) {
   const int n = size(factor.rows()), lda = leading(n);
   int info = 0;
   zpotri_("L", &n, factor.data(), &lda, &info);
-  require(info == 0, "the inverse of a factor with a zero on its diagonal was asked for");
+  require(info == 0, "a factor has a zero in row ", info, " of its diagonal and no inverse");
   factor.triangularView<Eigen::StrictlyUpper>() = factor.adjoint();
 }
 
 Eigen::MatrixXd transpose_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
                                   const Eigen::Ref<const Eigen::MatrixXd>& b) {
-  require(a.rows() == b.rows(), "transpose_product of unequal sizes");
+  require(a.rows() == b.rows(), "transpose_product of matrices with ", a.rows(), " and ", b.rows(), " rows");
   Eigen::MatrixXd c(a.cols(), b.cols());
   const int m = size(a.cols()), n = size(b.cols()), k = size(a.rows());
   const int lda = leading(size(a.outerStride())), ldb = leading(size(b.outerStride())), ldc = leading(m);
@@ -75,7 +75,7 @@ Eigen::MatrixXd transpose_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
 }
 
 Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b) {
-  require(a.cols() == b.rows(), "product of unequal sizes");
+  require(a.cols() == b.rows(), "product over ", a.cols(), " and ", b.rows(), " values");
   Eigen::MatrixXd c(a.rows(), b.cols());
   const int m = size(a.rows()), n = size(b.cols()), k = size(a.cols());
   const int lda = leading(a.outerStride()), ldb = leading(b.outerStride()), ldc = leading(m);
@@ -85,7 +85,7 @@ Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen:
 }
 
 void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& c) {
-  require(a.cols() == b.rows() && c.rows() == a.rows() && c.cols() == b.cols(), "product of unequal sizes");
+  require(a.cols() == b.rows() && c.rows() == a.rows() && c.cols() == b.cols(), "product of ", a.rows(), " x ", a.cols(), " and ", b.rows(), " x ", b.cols(), " into ", c.rows(), " x ", c.cols());
   const int m = size(a.rows()), n = size(b.cols()), k = size(a.cols());
   const int lda = leading(m), ldb = leading(k), ldc = leading(m);
   const double one = 1;
@@ -103,7 +103,7 @@ Eigen::MatrixXd gram(const Eigen::MatrixXd& y) {
 
 std::pair<Eigen::VectorXd, Eigen::MatrixXd> largest_eigenpairs(Eigen::MatrixXd matrix, int count) {
   const int n = size(matrix.rows()), first = n - count + 1;
-  require(matrix.cols() == n && count >= 1 && count <= n, "eigenpairs that a matrix does not have");
+  require(matrix.cols() == n && count >= 1 && count <= n, count, " eigenpairs of a matrix of ", n, " rows and ", matrix.cols(), " columns");
   Eigen::VectorXd values(n);
   Eigen::MatrixXd vectors(n, count);
   std::vector<int> support(2 * static_cast<std::size_t>(count));

@@ -58,7 +58,7 @@ double own_spread(double half_length) { return 2 / std::sqrt(3.0) * half_length;
 
 ContactBody::ContactBody(double base_radius, const TraceBasis& axial, const std::vector<double>& slice_edges)
     : base_radius_(base_radius), slices_(static_cast<int>(slice_edges.size()) - 1) {
-  require(slices_ >= 1, "a contact needs at least one slice");
+  require(slices_ >= 1, "a contact needs at least one slice, not ", slices_);
   const int stations = std::max(1, axial.size());
   axial_ = Eigen::MatrixXd::Ones(stations, slices_);
   if (stations > 1) {
@@ -67,7 +67,7 @@ ContactBody::ContactBody(double base_radius, const TraceBasis& axial, const std:
       for (int i = 0; i < stations; ++i) axial_(i, s) = mean[i];
     }
   } else {
-    require(slices_ == 1, "a plane body has one slice");
+    require(slices_ == 1, "a plane body has one slice, not ", slices_);
     per_width_ = 1 / (slice_edges.back() - slice_edges.front());
   }
 }
@@ -102,7 +102,7 @@ Eigen::MatrixXd ContactBody::weights_on(const TraceBasis& flank, const std::vect
 double ContactBody::distance_to_end(const TraceBasis& flank, double arc) const {
   const double low = flank.low(), high = flank.high();
   const double distance = std::min(arc - low * low / (2 * base_radius_), high * high / (2 * base_radius_) - arc);
-  require(distance > 0, "a pressure element lies beyond the end of the flank");
+  require(distance > 0, "a pressure element lies ", -distance, " m beyond the end of the flank");
   return distance;
 }
 
@@ -264,7 +264,7 @@ CondensedBody::Offset CondensedBody::offset(int tooth_a, int tooth_b) const {
   int d = ((tooth_a - tooth_b) % n + n) % n;
   const bool mirrored = d > n - d;  // block(-d) is the transpose of block(d)
   if (mirrored) d = n - d;
-  require(d < static_cast<int>(compressed_.size()), "teeth too far apart for the formed compliance");
+  require(d < static_cast<int>(compressed_.size()), "teeth ", d, " apart, the compliance is formed for fewer than ", compressed_.size());
   return {d, mirrored};
 }
 
@@ -343,7 +343,7 @@ ContactBody::Block ResolvedBody::block(int tooth_a, int tooth_b) const {
 }
 
 ContactBody::Flank ResolvedBody::flank_of(int tooth) const {
-  require(tooth >= first_tooth_ && tooth < first_tooth_ + static_cast<int>(teeth_.size()), "a tooth without a mesh");
+  require(tooth >= first_tooth_ && tooth < first_tooth_ + static_cast<int>(teeth_.size()), "tooth ", tooth, " is without a mesh; those from ", first_tooth_, " on have one: ", teeth_.size());
   return {teeth_[tooth - first_tooth_], motions_[tooth - first_tooth_], tooth};
 }
 

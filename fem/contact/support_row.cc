@@ -63,7 +63,7 @@ SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slic
 }
 
 void SupportPlan::apply_on_other_flank(int places) {
-  require(applied_ == 0, "forces on the other flank are applied once");
+  require(applied_ == 0, "forces on the other flank are applied once, here after ", applied_, " others");
   for (int tooth = 0; tooth < teeth_; ++tooth)
     for (int place = 0; place < places; ++place)
       forces_.push_back({Kind::applied, 0, 0, 0, {{tooth, static_cast<int>(arcs_.size()) + place}}});
@@ -104,7 +104,7 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
   const bool solid = ring.axial_stations() > 1, tilts = solid && !plan_.half_face() && !plan_.held_axially();
   const auto& edges = plan_.slice_edges();
   const double width = edges.back() - edges.front();
-  require(solid || edges.size() == 2, "a plane body has one slice");
+  require(solid || edges.size() == 2, "a plane body has one slice, not ", edges.size() - 1);
   if (!solid) per_width_ = 1 / width;
   const int n = size();
   resultants_ = Eigen::MatrixXd::Zero(n, tilts ? 5 : 3);
@@ -120,7 +120,7 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
       here.weight.push_back(force.weight);
     }
     const bool support = force.kind == SupportPlan::Kind::support;
-    require(!support || std::abs(wrench.head<3>().norm() - 1) < 1e-9, "a support is not wholly on the rim");
+    require(!support || std::abs(wrench.head<3>().norm() - 1) < 1e-9, "a support is not wholly on the rim: its unit force acts with ", wrench.head<3>().norm());
     resultants_.row(i).head<3>() << wrench[0], wrench[1], wrench[5];
     if (tilts) resultants_.row(i).tail<2>() << wrench[3], wrench[4];
     gap_[i] = support ? plan_.direction(force).clearance : 0.0;

@@ -62,7 +62,7 @@ bool is_curved(geometry::Boundary boundary) {
 template <int dim>
 void build_triangulation(const geometry::Mesh& mesh, const BoundaryProjection& project,
                          dealii::Triangulation<dim>& triangulation) {
-  require(mesh.dimension == dim, "mesh of the wrong dimension");
+  require(mesh.dimension == dim, "a mesh of dimension ", mesh.dimension, " where ", dim, " is computed");
   std::vector<dealii::Point<dim>> vertices(mesh.vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i)
     for (int c = 0; c < dim; ++c) vertices[i][c] = mesh.vertices[i][c];

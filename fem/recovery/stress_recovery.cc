@@ -51,7 +51,7 @@ StressRecovery::StressRecovery(const GearBody& body, double face_width, double p
       notch_(notch),
       first_load_(body.root_low.first_load),
       loads_(body.root_low.loads() + body.root_high.loads() + body.rim.loads()) {
-  require(body.root_low.points() > 1 && body.root_high.points() > 1, "a body that was not asked for its stresses");
+  require(body.root_low.points() > 1 && body.root_high.points() > 1, "a body that was not asked for its stresses has ", body.root_low.points(), " and ", body.root_high.points(), " points in its roots");
 }
 
 StressRecovery::Observed StressRecovery::looked_at(const Forces& forces) const {
@@ -69,7 +69,7 @@ StressRecovery::Observed StressRecovery::looked_at(const Forces& forces) const {
   const int reach = std::max(0, std::min({forces.look == Look::around ? 6 : 3, c.max_interface_offset() - 1 - loaded,
                                           (c.sectors() - loaded) / 2 - 1}));
   const int first = all_around ? 0 : first_tooth - reach, last = all_around ? body_.teeth - 1 : last_tooth + reach;
-  require(last > first, "stresses of a body whose teeth are not known to act on each other");
+  require(last > first, "stresses of teeth from ", first, " to ", last, " that are not known to act on each other");
   return {first, Eigen::MatrixXd(loads_, last - first + 1)};
 }
 

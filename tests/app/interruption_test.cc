@@ -28,9 +28,11 @@ namespace fs = std::filesystem;
 using test::check_same;
 using test::results_in;
 
-/// Elements, supports that open, a sweep, random draws and a search: every kind of result that is kept.
+/// Elements, supports that open, a sweep, random draws and a search: every kind of result that is kept. Without a look
+/// for other motions, which takes most of the time and keeps nothing of its own.
 std::string whole_scene() {
-  return "accuracy = 0.1\nmodel = \"plane\"\n" + test::small_stage() + R"([[ring]]
+  return "accuracy = 0.1\nmodel = \"plane\"\n" + test::small_stage() + R"(starts = 0
+[[ring]]
 name = "pinned"
 structure = "pinned"
 pins = 12
