@@ -198,7 +198,7 @@ void plan_command(const Arguments& arguments) {
   check_studies(scene);
   Plan plan = make_plan(scene, arguments.threads);
   plan.budget = budget;
-  fmt::print("{}", arguments.json ? to_json(plan) : arguments.inputs ? to_text(plan) : overview(plan));
+  fmt::print("{}", arguments.json ? text_of(to_json(plan)) : arguments.inputs ? to_text(plan) : overview(plan));
   // The plan itself shows what is too much.
   std::fflush(stdout);
   check_limits(scene, limits_of(arguments), arguments.threads);
@@ -210,7 +210,7 @@ void geometry_command(const Arguments& arguments) {
   const auto data = make_system(scene)->drawing();
   if (data.gears.empty())
     throw InputError(fmt::format("{}: a stage of kind \"{}\" has no drawing data", arguments.scene, scene.stage.kind));
-  fmt::print("{}", arguments.json ? drawing_json(data).dump(2) + "\n" : drawing_text(data));
+  fmt::print("{}", arguments.json ? text_of(drawing_json(data)) : drawing_text(data));
 }
 
 void check_command(const Arguments& arguments) {
@@ -220,7 +220,7 @@ void check_command(const Arguments& arguments) {
   check_studies(scene);
   const auto warnings = make_plan(scene, arguments.threads).warnings;
   if (arguments.json)
-    fmt::print("{}\n", Json{{"scene", arguments.scene}, {"warnings", to_json(warnings)}}.dump(2));
+    fmt::print("{}", text_of({{"scene", arguments.scene}, {"warnings", to_json(warnings)}}));
   else {
     for (const auto& warning : warnings) fmt::print("{}\n", to_text(warning));
     fmt::print("{}: OK ({})\n", arguments.scene, make_system(scene)->describe());
@@ -266,7 +266,7 @@ void statics_command(const Arguments& arguments) {
       if (warning.severity != Severity::note)
         log::warn(warning.where.empty() ? warning.text : warning.where + ": " + warning.text);
     if (arguments.json)
-      fmt::print("{}\n", statics.json.dump(2));
+      fmt::print("{}", text_of(statics.json));
     else if (!arguments.quiet)
       fmt::print("{}\nreport  {}\n", statics.text, (options.out / "statics.html").string());
   });
@@ -316,7 +316,7 @@ void compare_command(const Arguments& arguments) {
   folder.remove_earlier([](const std::string&) { return true; });
   write_file(table, comparison_csv(runs));
   if (arguments.json) {
-    fmt::print("{}\n", comparison_json(runs).dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}", text_of(comparison_json(runs)));
     return;
   }
   if (arguments.quiet) return;
@@ -326,7 +326,7 @@ void compare_command(const Arguments& arguments) {
 
 void explain_command(const Arguments& arguments) {
   if (arguments.json_schema) {
-    fmt::print("{}\n", json_schema().dump(2));
+    fmt::print("{}", text_of(json_schema()));
     return;
   }
   if (arguments.markdown) {

@@ -5,6 +5,8 @@
 
 namespace annulus {
 
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
 Json json_number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json json_number(const std::optional<double>& x) { return x ? json_number(*x) : Json(nullptr); }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "core/figure.h"
 
@@ -9,6 +10,10 @@
 namespace annulus {
 
 using Json = nlohmann::ordered_json;
+
+/// Of a file and of the standard output: indented, with a line break at its end. Text that is not UTF-8 has U+FFFD in
+/// its place.
+[[nodiscard]] std::string text_of(const Json& json);
 
 /// null for NaN and infinite values, which JSON does not have.
 [[nodiscard]] Json json_number(double x);

@@ -8,6 +8,7 @@
 #include "app/plan/mesh_model.h"
 #include "app/plan/warning.h"
 #include "app/scene/scene.h"
+#include "core/json.h"
 
 namespace annulus::app {
 
@@ -69,6 +70,6 @@ void add_diameters(std::vector<DerivedInput>& list, const std::string& table, co
 [[nodiscard]] std::string overview(const Plan& plan);
 /// All of it, every input with its origin.
 [[nodiscard]] std::string to_text(const Plan& plan);
-[[nodiscard]] std::string to_json(const Plan& plan);
+[[nodiscard]] Json to_json(const Plan& plan);
 
 }  // namespace annulus::app

@@ -170,7 +170,7 @@ std::string to_text(const Plan& plan) {
   return text + warning_lines(plan) + assumed_lines(plan.inputs);
 }
 
-std::string to_json(const Plan& plan) {
+Json to_json(const Plan& plan) {
   Json json;
   json["annulus_version"] = version();
   json["title"] = plan.title;
@@ -204,7 +204,7 @@ std::string to_json(const Plan& plan) {
   json["remarks"] = plan.remarks;
   json["warnings"] = to_json(plan.warnings);
   json["contact_problems"] = plan.contact_problems();
-  if (plan.cost.empty()) return json.dump(2) + "\n";
+  if (plan.cost.empty()) return json;
   json["threads"] = plan.cost.threads;
   for (const auto& step : plan.cost.steps) {
     Json item = {{"step", to_text(step.kind)},
@@ -223,7 +223,7 @@ std::string to_json(const Plan& plan) {
   json["predicted_worst_s"] = json_number(plan.cost.at_worst().seconds());
   json["predicted_worst_peak_MB"] = json_number(plan.cost.at_worst().peak_MB());
   if (!plan.budget.empty()) json["budget"] = plan.budget;
-  return json.dump(2) + "\n";
+  return json;
 }
 
 }  // namespace annulus::app

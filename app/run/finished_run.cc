@@ -25,8 +25,6 @@ std::string stamp(const std::filesystem::path& file) {
   return std::filesystem::is_regular_file(file, none) ? file_checksum(file).value_or(missing) : missing;
 }
 
-std::string text_of(const Json& note) { return note.dump(1) + "\n"; }
-
 /// The note in OUT, without its checksum. Throws Error telling what is wrong with it; nothing where there is none.
 std::optional<Json> read_note(const std::filesystem::path& out) {
   const auto file = out / note_name;

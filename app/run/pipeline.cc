@@ -91,12 +91,12 @@ std::shared_ptr<const SystemRun> run_system(const Scene& scene, const RunOptions
   }
   const auto& specs = system_kind(scene.stage.kind).figures();
   write_file(options.out / "figures.csv", figures_csv(specs, run.variants()));
-  write_file(options.out / "summary.json", summary_json(run));
+  write_file(options.out / "summary.json", text_of(summary_json(run)));
   write_report(options.out / "report.html", run.system->report(run));
   return result;
 }
 
-std::string summary_json(const SystemRun& run) {
+Json summary_json(const SystemRun& run) {
   const auto& scene = run.scene;
   Json json = {{"title", scene.title},
                {"annulus_version", version()},
@@ -114,7 +114,7 @@ std::string summary_json(const SystemRun& run) {
   if (!run.timings.empty()) json["peak_memory_MB"] = run.peak_memory_MB;
   if (!run.cost.empty()) json["cost"] = cost_json(run.cost);
   if (run.reuse) json["reuse"] = run.reuse->json();
-  return json.dump(2) + "\n";
+  return json;
 }
 
 std::string run_text(const SystemRun& run) {

@@ -7,6 +7,7 @@
 #include "app/model/mesh_solve.h"
 #include "app/model/run_options.h"
 #include "app/model/system_run.h"
+#include "core/json.h"
 
 /// annulus from a scene file to a report. Start reading here: the whole program is six functions in a row,
 ///
@@ -36,6 +37,6 @@ namespace annulus::app {
 /// The summary of a finished run for the standard output.
 [[nodiscard]] std::string run_text(const SystemRun& run);
 /// summary.json of a finished run.
-[[nodiscard]] std::string summary_json(const SystemRun& run);
+[[nodiscard]] Json summary_json(const SystemRun& run);
 
 }  // namespace annulus::app

@@ -84,7 +84,7 @@ def _checksums_of_run(folder):
         stated, files = note.pop("checksum"), dict(note["files"])
     except (ValueError, KeyError, TypeError, AttributeError):
         raise _program.InputError(f"{file}: is damaged; run the scene again") from None
-    text = json.dumps(note, indent=1, ensure_ascii=False).encode() + b"\n"
+    text = json.dumps(note, indent=2, ensure_ascii=False).encode() + b"\n"
     if stated != f"{len(text)} bytes, {zlib.crc32(text):08x}":
         raise _program.InputError(f"{file}: is damaged; run the scene again")
     return files

@@ -80,7 +80,7 @@ Json periodic_json(const std::optional<dynamics::PeriodicSolution>& periodic) {
 
 }  // namespace
 
-std::string response_json(const StageResponse& response, const std::string& id) {
+Json response_json(const StageResponse& response, const std::string& id) {
   const auto& f = response.figures;
   Json json = {{"annulus_version", version()},
                {"inputs_id", id},
@@ -102,7 +102,7 @@ std::string response_json(const StageResponse& response, const std::string& id) 
   json["modes"] = modes_json(response.modes);
   json["motion"] = motion_json(response.motion);
   json["bodies"] = bodies_json(response);
-  return json.dump(2) + "\n";
+  return json;
 }
 
 }  // namespace annulus::app

@@ -201,7 +201,7 @@ void save(const StageResponse& response, const std::string& id, const std::files
   for (const auto& [key, value] : header) lines += fmt::format("# {}: {}\n", key, value);
   write_file(folder / "modes.csv", lines + modes_csv(response.modes));
   write_file(folder / "time_series.csv", lines + response.time_series);
-  write_file(folder / "figures.json", response_json(response, id));
+  write_file(folder / "figures.json", text_of(response_json(response, id)));
 }
 
 }  // namespace annulus::app

@@ -13,6 +13,7 @@
 #include "app/systems/planetary/stage_modes.h"
 #include "app/systems/planetary/stage_motion.h"
 #include "core/csv.h"
+#include "core/json.h"
 #include "dynamics/systems/planetary/response.h"
 
 namespace annulus::app {
@@ -59,7 +60,7 @@ struct StageResponse {
 [[nodiscard]] StageResponse simulate_stage(const dynamics::PlanetaryStage& stage,
                                            const dynamics::SimulationOptions& options, const StageTables& tables);
 /// figures.json: results and modes of one response, with the identity of its inputs (response_json.cc).
-[[nodiscard]] std::string response_json(const StageResponse& response, const std::string& id);
+[[nodiscard]] Json response_json(const StageResponse& response, const std::string& id);
 /// Writes all files of a response into `folder` (OUT/<ring>/dynamics).
 void save(const StageResponse& response, const std::string& id, const std::filesystem::path& folder);
 

@@ -347,7 +347,7 @@ void write_statics(const StageStatics& statics, const RunOptions& options) {
     bodies_csv(ring).write(folder / "bodies.csv");
     for (const auto& kind : mesh_kinds) face_csv(ring, kind).write(folder / fmt::format("face_load_{}.csv", kind.name));
   }
-  write_file(options.out / "statics.json", statics_json(statics).dump(2) + "\n");
+  write_file(options.out / "statics.json", text_of(statics_json(statics)));
   write_report(options.out / "statics.html", statics_page(statics, options), "statics_pictures");
 }
 

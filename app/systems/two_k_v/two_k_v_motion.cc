@@ -29,7 +29,7 @@ Json meshes_json(const std::vector<dynamics::BranchResult>& meshes) {
   return json;
 }
 
-std::string motion_json(const TwoKVMotion& m, const std::string& id) {
+Json motion_json(const TwoKVMotion& m, const std::string& id) {
   Json json = {{"inputs_id", id},
                {"crank_frequency_Hz", m.crank_frequency},
                {"sun_mesh_frequency_Hz", m.sun_mesh_frequency},
@@ -54,7 +54,7 @@ std::string motion_json(const TwoKVMotion& m, const std::string& id) {
   for (const auto& b : m.arc_bearings)
     json["arc_bearings"].push_back(
         {{"crank", b.crank}, {"arc_gear", b.arc_gear}, {"largest_N", to_json(b.largest)}, {"mean_N", b.mean}});
-  return json.dump(1) + "\n";
+  return json;
 }
 
 /// The tables, each in a file of its own.
@@ -179,7 +179,7 @@ void save(const TwoKVMotion& motion, const std::string& id, const std::filesyste
   std::string lines;
   for (const auto& [key, value] : header) lines += fmt::format("# {}: {}\n", key, value);
   write_file(folder / "time_series.csv", lines + motion.time_series);
-  write_file(folder / "figures.json", motion_json(motion, id));
+  write_file(folder / "figures.json", text_of(motion_json(motion, id)));
 }
 
 }  // namespace annulus::app
