@@ -105,8 +105,11 @@ double RadialBearing::distance(double force) const {
 
 double RadialBearing::load_zone(double force) const {
   if (play_ == 0) return std::numbers::pi;
-  const double seat = std::isinf(seat_) ? 0.0 : force / seat_;
-  return 2 * zone_of(play_, distance(force) - seat).angle;
+  return 2 * zone_of(play_, between_rings(distance(force))).angle;
+}
+
+double RadialBearing::roller_load(double force, double angle) const {
+  return 2 * stiffness_ / std::numbers::pi * std::max(0.0, between_rings(distance(force)) * std::cos(angle) - play_);
 }
 
 }  // namespace annulus

@@ -31,6 +31,8 @@ class RadialBearing {
   [[nodiscard]] double distance(double force) const;
   /// Angle over which rollers carry under a force (N), rad: 0 to pi.
   [[nodiscard]] double load_zone(double force) const;
+  /// What the rollers carry under a force (N) at an angle (rad) from the middle of the load zone, N/rad.
+  [[nodiscard]] double roller_load(double force, double angle) const;
 
  private:
   [[nodiscard]] Value of_rollers(double distance) const;

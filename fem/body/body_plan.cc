@@ -143,7 +143,8 @@ geometry::Mesh BodyPlan::sector(const BodyResolution& resolution, const SolvedFa
     stacks.push_back(teeth);
   };
   if (face.half) {
-    require(stacks.empty() && hoop_from == low && flange_to == high, "half of a face that is not symmetric, from ", low, " to ", high, " m");
+    require(stacks.empty() && hoop_from == low && flange_to == high, "half of a face that is not symmetric, from ", low,
+            " to ", high, " m");
     if (low < 0) add_teeth(low, 0, cells(-low));
     const auto edges = face.edges(resolution.face_cells);
     for (std::size_t i = 0; i + 1 < edges.size(); ++i) add_teeth(edges[i], edges[i + 1], 1);

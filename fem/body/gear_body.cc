@@ -103,7 +103,8 @@ std::vector<NodalLoad> other_flank_loads(const SectorModel& model, const geometr
   std::vector<NodalLoad> result;
   if (loads.places == 0) return result;
   const auto& flank = model.other_flank;
-  require(!flank.nodes.empty() && loads.places > 1, "loads at ", loads.places, " places of a flank of ", flank.nodes.size(), " nodes");
+  require(!flank.nodes.empty() && loads.places > 1, "loads at ", loads.places, " places of a flank of ",
+          flank.nodes.size(), " nodes");
   const TraceBasis basis(flank.profile, flank.degree);
   const auto over_width = flank.axial.size() == 1
                               ? std::vector<double>{1.0}

@@ -160,7 +160,8 @@ void ClosedFormBody::let_yield(const PlainRing& rim, double width, RimTheory the
 
 Eigen::Matrix3d ClosedFormBody::root_compliance(int offset) const {
   const int neighbours = static_cast<int>(root_.size()) / 2;
-  require(std::abs(offset) <= neighbours, "the coupling of teeth ", offset, " apart has not been prepared, only up to ", neighbours);
+  require(std::abs(offset) <= neighbours, "the coupling of teeth ", offset, " apart has not been prepared, only up to ",
+          neighbours);
   return root_[offset + neighbours];
 }
 

@@ -31,7 +31,8 @@ ContactPatch::ContactPatch(const FlankGap& gap, double tilt, double effective_mo
       stiffness_(M_PI * effective_modulus / 2),
       largest_((gap.high - gap.low) / 2),
       kinked_(gap.kinks[0].jump > 0 || gap.kinks[1].jump > 0) {
-  require(largest_ > 0 && gap.curvature > 0, "a contact patch needs a convex gap, not the curvature ", gap.curvature, " 1/m under up to ", largest_, " N/m");
+  require(largest_ > 0 && gap.curvature > 0, "a contact patch needs a convex gap, not the curvature ", gap.curvature,
+          " 1/m under up to ", largest_, " N/m");
   find_borders();
 }
 

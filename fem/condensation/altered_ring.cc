@@ -39,7 +39,8 @@ AlteredRing::AlteredRing(const CondensedSector& regular, int sectors, int most, 
 
 Eigen::MatrixXd AlteredRing::compliance(const std::vector<const CondensedSector*>& replaced) const {
   const int count = static_cast<int>(replaced.size());
-  require(count >= 1 && count < static_cast<int>(interface_compliance_.size()), count, " sectors are replaced, fewer than ", interface_compliance_.size(), " were announced");
+  require(count >= 1 && count < static_cast<int>(interface_compliance_.size()), count,
+          " sectors are replaced, fewer than ", interface_compliance_.size(), " were announced");
   const Eigen::Index m = regular_stiffness_.rows() / 2, interfaces = (count + 1) * m;
   Eigen::MatrixXd composed(interfaces, interfaces);
   for (int i = 0; i <= count; ++i)
@@ -55,7 +56,8 @@ Eigen::MatrixXd AlteredRing::compliance(const std::vector<const CondensedSector*
   Eigen::Index at = 0;
   for (int i = 0; i < count; ++i) {
     const CondensedSector& sector = *replaced[i];
-    require(sector.interface_stiffness.rows() == 2 * m, "a replaced sector has interfaces of ", sector.interface_stiffness.rows(), " values, not ", 2 * m);
+    require(sector.interface_stiffness.rows() == 2 * m, "a replaced sector has interfaces of ",
+            sector.interface_stiffness.rows(), " values, not ", 2 * m);
     change.block(i * m, i * m, 2 * m, 2 * m) += turned_stiffness(sector) - regular_stiffness_;
     Eigen::MatrixXd load = sector.interface_load;
     turn_high_rows(sector, load);

@@ -115,7 +115,8 @@ CondensedSector condense(const SectorModel& model, const SectorLoads& loads, Sec
 
 CondensedSector combine_loads(CondensedSector sector, int first, const Eigen::MatrixXd& weights) {
   const auto old = weights.rows(), combined = weights.cols();
-  require(first + old <= sector.compliance.cols(), "a combination of the loads ", first, " to ", first + old, " of ", sector.compliance.cols());
+  require(first + old <= sector.compliance.cols(), "a combination of the loads ", first, " to ", first + old, " of ",
+          sector.compliance.cols());
   const auto in_columns = [&](const Eigen::MatrixXd& matrix) {
     const auto after = matrix.cols() - first - old;
     Eigen::MatrixXd result(matrix.rows(), matrix.cols() - old + combined);

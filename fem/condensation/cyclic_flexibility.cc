@@ -12,7 +12,8 @@ namespace annulus::fem {
 
 CyclicFlexibility::CyclicFlexibility(int sectors, std::vector<Eigen::MatrixXcd> harmonics)
     : sectors_(sectors), harmonics_(std::move(harmonics)) {
-  require(static_cast<int>(harmonics_.size()) == sectors / 2 + 1, "a cyclic flexibility of ", sectors, " sectors has ", harmonics_.size(), " harmonics");
+  require(static_cast<int>(harmonics_.size()) == sectors / 2 + 1, "a cyclic flexibility of ", sectors, " sectors has ",
+          harmonics_.size(), " harmonics");
   const auto n = harmonics_.front().rows();
   const double pitch = 2 * M_PI / sectors;
   blocks_.assign(sectors, Eigen::MatrixXd::Zero(n, n));

@@ -85,7 +85,8 @@ Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen:
 }
 
 void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& c) {
-  require(a.cols() == b.rows() && c.rows() == a.rows() && c.cols() == b.cols(), "product of ", a.rows(), " x ", a.cols(), " and ", b.rows(), " x ", b.cols(), " into ", c.rows(), " x ", c.cols());
+  require(a.cols() == b.rows() && c.rows() == a.rows() && c.cols() == b.cols(), "product of ", a.rows(), " x ",
+          a.cols(), " and ", b.rows(), " x ", b.cols(), " into ", c.rows(), " x ", c.cols());
   const int m = size(a.rows()), n = size(b.cols()), k = size(a.cols());
   const int lda = leading(m), ldb = leading(k), ldc = leading(m);
   const double one = 1;
@@ -103,7 +104,8 @@ Eigen::MatrixXd gram(const Eigen::MatrixXd& y) {
 
 std::pair<Eigen::VectorXd, Eigen::MatrixXd> largest_eigenpairs(Eigen::MatrixXd matrix, int count) {
   const int n = size(matrix.rows()), first = n - count + 1;
-  require(matrix.cols() == n && count >= 1 && count <= n, count, " eigenpairs of a matrix of ", n, " rows and ", matrix.cols(), " columns");
+  require(matrix.cols() == n && count >= 1 && count <= n, count, " eigenpairs of a matrix of ", n, " rows and ",
+          matrix.cols(), " columns");
   Eigen::VectorXd values(n);
   Eigen::MatrixXd vectors(n, count);
   std::vector<int> support(2 * static_cast<std::size_t>(count));

@@ -264,7 +264,8 @@ CondensedBody::Offset CondensedBody::offset(int tooth_a, int tooth_b) const {
   int d = ((tooth_a - tooth_b) % n + n) % n;
   const bool mirrored = d > n - d;  // block(-d) is the transpose of block(d)
   if (mirrored) d = n - d;
-  require(d < static_cast<int>(compressed_.size()), "teeth ", d, " apart, the compliance is formed for fewer than ", compressed_.size());
+  require(d < static_cast<int>(compressed_.size()), "teeth ", d, " apart, the compliance is formed for fewer than ",
+          compressed_.size());
   return {d, mirrored};
 }
 
@@ -343,7 +344,8 @@ ContactBody::Block ResolvedBody::block(int tooth_a, int tooth_b) const {
 }
 
 ContactBody::Flank ResolvedBody::flank_of(int tooth) const {
-  require(tooth >= first_tooth_ && tooth < first_tooth_ + static_cast<int>(teeth_.size()), "tooth ", tooth, " is without a mesh; those from ", first_tooth_, " on have one: ", teeth_.size());
+  require(tooth >= first_tooth_ && tooth < first_tooth_ + static_cast<int>(teeth_.size()), "tooth ", tooth,
+          " is without a mesh; those from ", first_tooth_, " on have one: ", teeth_.size());
   return {teeth_[tooth - first_tooth_], motions_[tooth - first_tooth_], tooth};
 }
 

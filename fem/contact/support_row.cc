@@ -120,7 +120,8 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
       here.weight.push_back(force.weight);
     }
     const bool support = force.kind == SupportPlan::Kind::support;
-    require(!support || std::abs(wrench.head<3>().norm() - 1) < 1e-9, "a support is not wholly on the rim: its unit force acts with ", wrench.head<3>().norm());
+    require(!support || std::abs(wrench.head<3>().norm() - 1) < 1e-9,
+            "a support is not wholly on the rim: its unit force acts with ", wrench.head<3>().norm());
     resultants_.row(i).head<3>() << wrench[0], wrench[1], wrench[5];
     if (tilts) resultants_.row(i).tail<2>() << wrench[3], wrench[4];
     gap_[i] = support ? plan_.direction(force).clearance : 0.0;

@@ -48,7 +48,8 @@ TraceGrid make_trace(const std::vector<int>& nodes, const std::vector<Eigen::Vec
     rows[station(trace.axial, z[i])].emplace_back(profile_coordinate(points[nodes[i]]), nodes[i]);
   for (auto& row : rows) {
     std::sort(row.begin(), row.end());
-    require(row.size() == rows.front().size(), "rows of ", row.size(), " and ", rows.front().size(), " nodes of a boundary do not form a tensor grid");
+    require(row.size() == rows.front().size(), "rows of ", row.size(), " and ", rows.front().size(),
+            " nodes of a boundary do not form a tensor grid");
   }
   // On a helical flank the nodes between the vertices of an edge along z lie off the profile coordinate of the vertices
   // by a small part of a cell: one common coordinate serves the row.
@@ -173,7 +174,8 @@ void add_cyclic_interfaces(const ElasticProblem<dim>& problem, const std::vector
     side->erase(std::remove_if(side->begin(), side->end(), [&](int n) { return held[n]; }), side->end());
     std::sort(side->begin(), side->end(), radial_axial_order);
   }
-  require(model.low_nodes.size() == model.high_nodes.size(), "the two cyclic interfaces have ", model.low_nodes.size(), " and ", model.high_nodes.size(), " nodes");
+  require(model.low_nodes.size() == model.high_nodes.size(), "the two cyclic interfaces have ", model.low_nodes.size(),
+          " and ", model.high_nodes.size(), " nodes");
   const Eigen::AngleAxisd pitch(model.pitch_angle, Eigen::Vector3d::UnitZ());
   for (std::size_t i = 0; i < model.low_nodes.size(); ++i)
     require((pitch * model.nodes[model.low_nodes[i]] - model.nodes[model.high_nodes[i]]).norm() < 1e-9 * support_radius,

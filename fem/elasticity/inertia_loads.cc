@@ -39,7 +39,8 @@ Eigen::MatrixXd polynomials(const SectorModel& model, const MotionOrder& order) 
 }  // namespace
 
 std::vector<NodalLoad> inertia_loads(const SectorModel& model, double width, const MotionOrder& order) {
-  require(model.nodal_mass.rows() == static_cast<Eigen::Index>(model.nodes.size()), "a sector model of ", model.nodes.size(), " nodes has the mass of ", model.nodal_mass.rows());
+  require(model.nodal_mass.rows() == static_cast<Eigen::Index>(model.nodes.size()), "a sector model of ",
+          model.nodes.size(), " nodes has the mass of ", model.nodal_mass.rows());
   const Eigen::MatrixXd psi = polynomials(model, order);
   // Components do not couple and share one Gram matrix.
   Eigen::MatrixXd inertia = width * (model.nodal_mass * psi);

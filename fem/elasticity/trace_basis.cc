@@ -40,7 +40,8 @@ void add_product(const std::vector<double>& nodes, std::size_t i, double factor,
 
 TraceBasis::TraceBasis(std::vector<double> stations, int degree)
     : stations_(std::move(stations)), degree_(degree), unit_(lobatto(degree)) {
-  require(stations_.size() > 1 && (stations_.size() - 1) % degree_ == 0, "a trace of ", stations_.size(), " stations has a broken element of degree ", degree_);
+  require(stations_.size() > 1 && (stations_.size() - 1) % degree_ == 0, "a trace of ", stations_.size(),
+          " stations has a broken element of degree ", degree_);
   for (std::size_t i = 0; i < unit_.size(); ++i) {
     double product = 1;
     for (std::size_t j = 0; j < unit_.size(); ++j)
@@ -57,7 +58,8 @@ TraceBasis::TraceBasis(std::vector<double> stations, int degree)
 
 TraceBasis::Values TraceBasis::operator()(double coordinate) const {
   const double tolerance = 1e-9 * (high() - low());
-  require(coordinate >= low() - tolerance && coordinate <= high() + tolerance, "the point ", coordinate, " is outside a boundary trace from ", low(), " to ", high());
+  require(coordinate >= low() - tolerance && coordinate <= high() + tolerance, "the point ", coordinate,
+          " is outside a boundary trace from ", low(), " to ", high());
   const auto above = std::upper_bound(stations_.begin(), stations_.end(), coordinate);
   int element = static_cast<int>(above - stations_.begin() - 1) / degree_;
   element = std::clamp(element, 0, elements() - 1);

@@ -51,7 +51,8 @@ StressRecovery::StressRecovery(const GearBody& body, double face_width, double p
       notch_(notch),
       first_load_(body.root_low.first_load),
       loads_(body.root_low.loads() + body.root_high.loads() + body.rim.loads()) {
-  require(body.root_low.points() > 1 && body.root_high.points() > 1, "a body that was not asked for its stresses has ", body.root_low.points(), " and ", body.root_high.points(), " points in its roots");
+  require(body.root_low.points() > 1 && body.root_high.points() > 1, "a body that was not asked for its stresses has ",
+          body.root_low.points(), " and ", body.root_high.points(), " points in its roots");
 }
 
 StressRecovery::Observed StressRecovery::looked_at(const Forces& forces) const {

@@ -55,6 +55,26 @@ BOOST_AUTO_TEST_CASE(many_rollers_give_the_law) {
   BOOST_TEST(zone <= 1e-6);
 }
 
+// Their sum along the load, by the trapezoidal rule: the load has kinks at the ends of its zone.
+BOOST_AUTO_TEST_CASE(loads_of_rollers_add_up_to_the_force) {
+  annulus::test::Verification record("Rollers of a bearing with play", "equilibrium with the force");
+  constexpr int steps = 20000;
+  for (const double seat : {std::numeric_limits<double>::infinity(), 3e8}) {
+    const RadialBearing law(7e8, 15e-6, seat);
+    for (const double force : {5e3, 5e4, 5e5}) {
+      double sum = 0;
+      for (int i = 0; i < steps; ++i) {
+        const double angle = 2 * std::numbers::pi * i / steps;
+        sum += law.roller_load(force, angle) * std::cos(angle) * 2 * std::numbers::pi / steps;
+      }
+      record.near("sum of the loads over the force", "", sum / force, 1, 3e-6,
+                  "trapezoidal rule, rest of the stiffness");
+      BOOST_TEST(law.roller_load(force, 0.51 * law.load_zone(force)) == 0);
+      BOOST_TEST(law.roller_load(force, 0.49 * law.load_zone(force)) > 0);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(slope_energy_and_distance_belong_to_the_force) {
   for (const double seat : {std::numeric_limits<double>::infinity(), 3e8}) {
     const RadialBearing law(1e9, 10e-6, seat);

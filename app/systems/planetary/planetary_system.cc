@@ -20,6 +20,7 @@
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/power_flow.h"
 #include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/planetary/roller_loads.h"
 #include "app/systems/planetary/space_dynamics.h"
 #include "app/systems/planetary/stage_response.h"
 #include "app/systems/planetary/stage_supports.h"
@@ -116,6 +117,10 @@ class PlanetarySystem final : public GearSystem {
   [[nodiscard]] FigureSet table_figures(std::size_t ring, const std::vector<const MeshResult*>& tables) const override {
     auto figures = GearSystem::table_figures(ring, tables);
     figures.add(stage_losses(scene(), geometry(), ring, *tables.front(), *tables.back()));
+    const auto& set = geometry().rings.at(ring).set;
+    if (const auto readings = gauge_readings(scene(), set, *tables.back())) figures.add(app::figures(*readings));
+    if (const auto loads = roller_loads(scene(), set, *tables.front())) figures.add(app::figures(*loads, sun_planet));
+    if (const auto loads = roller_loads(scene(), set, *tables.back())) figures.add(app::figures(*loads, ring_planet));
     return figures;
   }
 
@@ -227,11 +232,13 @@ class PlanetarySystem final : public GearSystem {
 };
 
 const std::vector<FigureSpec>& all_planetary_figures() {
-  static const auto list = joined_figures(
-      {mesh_figure_specs(ring_planet, "ring mesh", "ring_stiffness", {"planet", "ring"}),
-       mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness", {"planet", "sun"}),
-       dynamics::friction_figure_specs({{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}}),
-       dynamics::planetary_figures(), tolerance_figures(), static_figures(), dynamics::transient_figures()});
+  static const auto list =
+      joined_figures({mesh_figure_specs(ring_planet, "ring mesh", "ring_stiffness", {"planet", "ring"}),
+                      mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness", {"planet", "sun"}),
+                      dynamics::friction_figure_specs({{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}}),
+                      dynamics::planetary_figures(), tolerance_figures(), static_figures(),
+                      dynamics::transient_figures(), roller_figure_specs(sun_planet, "sun mesh"),
+                      roller_figure_specs(ring_planet, "ring mesh"), gauge_figure_specs()});
   return list;
 }
 

@@ -11,26 +11,6 @@
 
 namespace annulus::app {
 
-namespace {
-
-/// Load of a rim that stays round, N/rad, at an angle from the middle of its load zone.
-class RoundRim {
- public:
-  RoundRim(const RadialBearing& bearing, double stiffness, double play, double force)
-      : density_(2 * stiffness / std::numbers::pi),
-        play_(play),
-        distance_(bearing.distance(force)),
-        load_zone_(bearing.load_zone(force)) {}
-
-  [[nodiscard]] double at(double angle) const { return density_ * std::max(0.0, distance_ * std::cos(angle) - play_); }
-  [[nodiscard]] double load_zone() const { return load_zone_; }
-
- private:
-  double density_, play_, distance_, load_zone_;
-};
-
-}  // namespace
-
 std::optional<RollerLoads> roller_loads(const Scene& scene, const geometry::PlanetarySet& set, const MeshResult& mesh) {
   const auto& csv = mesh.rollers;
   if (csv.rows.empty()) return std::nullopt;
@@ -56,13 +36,39 @@ std::optional<RollerLoads> roller_loads(const Scene& scene, const geometry::Plan
   const double outwards = std::sin(as) - std::sin(ar), across = std::cos(as) + std::cos(ar);
   const double force = mesh.table.loads()[mesh.nominal] * std::hypot(outwards, across);
   const double stiffness = planetary(scene).supports.planet, play = planetary(scene).supports.planet_clearance / 2;
-  const RoundRim round({stiffness, play}, stiffness, play, force);
+  const RadialBearing round(stiffness, play);
   // The rim leans on the rollers opposite to the forces of its meshes.
   const double middle = std::atan2(-across, -outwards);
-  for (const double at : result.angle) result.rigid.push_back(round.at(at - middle));
-  result.largest_rigid = round.at(0);
-  result.rigid_load_zone = round.load_zone();
+  for (const double at : result.angle) result.rigid.push_back(round.roller_load(force, at - middle));
+  result.largest_rigid = round.roller_load(force, 0);
+  result.rigid_load_zone = round.load_zone(force);
   return result;
+}
+
+std::vector<FigureSpec> roller_figure_specs(const std::string& mesh, const std::string& title) {
+  constexpr double per_degree = units::deg, degrees = 1 / units::deg;
+  return {{.key = mesh + "_roller_load_N_per_rad",
+           .title = "Largest load of the planet's rollers under the " + title,
+           .unit = "N/°",
+           .scale = per_degree,
+           .definition = "largest over the angle and all positions at the nominal load, with the flexible rim of the "
+                         "planet; absent without rollers",
+           .better = Better::smaller,
+           .effort = FigureEffort::tables},
+          {.key = mesh + "_roller_load_zone_rad",
+           .title = "Load zone of the planet's rollers under the " + title,
+           .unit = "°",
+           .scale = degrees,
+           .definition = "all angles at which rollers carry where they carry most; absent without rollers",
+           .better = Better::larger,
+           .effort = FigureEffort::tables}};
+}
+
+FigureSet figures(const RollerLoads& loads, const std::string& mesh) {
+  FigureSet set;
+  set.set(mesh + "_roller_load_N_per_rad", loads.largest);
+  set.set(mesh + "_roller_load_zone_rad", loads.load_zone);
+  return set;
 }
 
 }  // namespace annulus::app

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/model/mesh_result.h"
+#include "core/figure.h"
 #include "geometry/planetary.h"
 
 namespace annulus::app {
@@ -21,5 +23,10 @@ struct RollerLoads {
 /// Nothing for planets that do not stand on rollers.
 [[nodiscard]] std::optional<RollerLoads> roller_loads(const Scene& scene, const geometry::PlanetarySet& set,
                                                       const MeshResult& mesh);
+
+/// Results of the planet's rollers under one of its meshes; keys begin with its name.
+[[nodiscard]] std::vector<FigureSpec> roller_figure_specs(const std::string& mesh, const std::string& title);
+/// Their values; the errors are not known.
+[[nodiscard]] FigureSet figures(const RollerLoads& loads, const std::string& mesh);
 
 }  // namespace annulus::app

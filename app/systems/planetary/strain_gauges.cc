@@ -237,6 +237,38 @@ std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::
   return readings;
 }
 
+std::vector<FigureSpec> gauge_figure_specs() {
+  return {{.key = "strain_gauge_strain",
+           .title = "Largest strain of a gauge",
+           .unit = "µm/m",
+           .scale = 1 / micro,
+           .definition = "largest amount over the gauges on the ring and a revolution of the carrier; absent without "
+                         "gauges",
+           .better = Better::smaller,
+           .effort = FigureEffort::tables},
+          {.key = "strain_gauge_face_load_factor",
+           .title = "Face load factor by strain gauges",
+           .symbol = "K_Hβ",
+           .definition = "largest range of the strains of a gauge's axial positions over their mean; absent without "
+                         "gauges at several",
+           .better = Better::smaller,
+           .effort = FigureEffort::tables}};
+}
+
+FigureSet figures(const GaugeReadings& readings) {
+  FigureSet set;
+  Figure largest{0, 0};
+  std::optional<double> factor;
+  for (const auto& gauge : readings.gauges) {
+    const double amount = std::max(std::abs(gauge.smallest), std::abs(gauge.largest));
+    if (amount > largest.value) largest = {amount, gauge.error};
+    if (const auto of_gauge = readings.face_load_factor(gauge.of)) factor = std::max(factor.value_or(0), *of_gauge);
+  }
+  set.set("strain_gauge_strain", largest);
+  if (factor) set.set("strain_gauge_face_load_factor", *factor);
+  return set;
+}
+
 Csv to_csv(const GaugeReadings& readings, GaugeFrame frame) {
   Csv csv{.header = {{"frame", frame == GaugeFrame::mirrored
                                    ? "mirror image of the stage, in which the torque of the sun is counter-clockwise"

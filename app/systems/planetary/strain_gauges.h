@@ -10,6 +10,7 @@
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_schema.h"
 #include "app/systems/planetary/planetary_input.h"
+#include "core/figure.h"
 #include "core/json.h"
 #include "geometry/planetary.h"
 
@@ -54,6 +55,10 @@ struct GaugeReadings {
 /// Nothing without gauges. Every planet carries the mean mesh force, and its mesh strains the ring as if it were alone.
 [[nodiscard]] std::optional<GaugeReadings> gauge_readings(const Scene& scene, const geometry::PlanetarySet& set,
                                                           const MeshResult& ring_mesh);
+
+/// Results of all gauges on a ring together.
+[[nodiscard]] std::vector<FigureSpec> gauge_figure_specs();
+[[nodiscard]] FigureSet figures(const GaugeReadings& readings);
 
 /// Frame of the readings: that of the ring, or of a stage that is computed as its mirror image.
 enum class GaugeFrame { ring, mirrored };
