@@ -92,7 +92,7 @@ struct StressCurve {
   std::size_t position = 0;      ///< index into LoadedMeshResult::positions: where its largest von Mises stress occurs
   std::vector<double> abscissa;  ///< root: arc length counter-clockwise through the tooth space, from form circle to
                                  ///< form circle, m; rim: polar angle in the wheel's own frame, rad
-  std::vector<double> tangential, von_mises;  ///< Pa
+  std::vector<double> tangential{}, von_mises{};  ///< Pa
 };
 
 /// What a strain gauge shows while the mesh moves once around the wheel under its middle load.

@@ -83,6 +83,7 @@ struct RingDescription {
   std::vector<std::pair<std::string, double>> parameters{};
   RingDrawing drawing{};
   std::vector<double> support_angles{};  ///< rad, of pins, bolts or spline teeth, from the centre of tooth 0
+  bool opens = false;                    ///< supports touch and part as planets pass: their effects do not add up
 };
 
 }  // namespace annulus::fem

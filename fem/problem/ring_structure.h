@@ -40,6 +40,8 @@ class RingStructure {
   [[nodiscard]] bool floating() const { return body(0).held == HeldSurface::none; }
   /// Number of pins, bolts or spline teeth; 0 where a surface is held.
   [[nodiscard]] int single_supports() const { return static_cast<int>(value_->describe(0).support_angles.size()); }
+  /// Whether supports touch and part as planets pass: what several planets do is then not the sum of what each does.
+  [[nodiscard]] bool opens() const { return value_->describe(0).opens; }
   /// The smallest number of teeth by which a ring of `teeth` teeth can be rotated so that its structure looks the same:
   /// its contact repeats after so many mesh cycles.
   [[nodiscard]] int repeating_teeth(int teeth) const;

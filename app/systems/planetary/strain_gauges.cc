@@ -167,10 +167,9 @@ bool gauges_need_solid(const Scene& scene, const RingInput& ring) {
 
 void warn_of_gauges(std::vector<Warning>& list, const Scene& scene) {
   for (const auto& ring : planetary(scene).rings) {
-    const bool lifts = ring.structure == Structure::pinned || ring.structure == Structure::splined;
     const bool gauged = std::any_of(planetary(scene).strain_gauges.begin(), planetary(scene).strain_gauges.end(),
                                     [&](const auto& gauge) { return is_on(gauge, ring); });
-    if (!lifts || !gauged || scene.stage.planets < 2) continue;
+    if (!gauged || scene.stage.planets < 2 || !ring_structure(ring).opens()) continue;
     list.push_back({"strain_gauges", Severity::warning,
                     "strain gauges show the sum of what each planet's mesh strains by itself. Supports that lift make "
                     "the meshes act on each other, which the sum leaves out",

@@ -13,6 +13,7 @@ RingDescription PinHeld::describe(double outside_radius) const {
   const auto count = static_cast<int>(angles.size());
   RingDescription d;
   d.body.held = HeldSurface::none;
+  d.opens = unilateral;
   auto& words = d.words;
   words.name = unilateral ? "pinned" : "bolted";
   words.support = unilateral ? "pin" : "bolt";

@@ -11,6 +11,7 @@ RingDescription SplineHeld::describe(double /*outside_radius*/) const {
   constexpr double absent = -1;
   RingDescription d;
   d.body.held = HeldSurface::none;
+  d.opens = true;
   d.words.name = "splined";
   d.words.support = "spline tooth";
   d.words.supports = "spline teeth";
