@@ -6,14 +6,14 @@
 
 namespace annulus::dynamics {
 
-ResponseWindow every_second_sample(const ResponseWindow& window) {
-  const auto columns = Eigen::seqN(0, (window.time.size() + 1) / 2, Eigen::fix<2>);
-  ResponseWindow half;
-  half.samples_per_cycle = window.samples_per_cycle / 2;
-  half.time = window.time(columns);
+ResponseWindow samples_of(const ResponseWindow& window, int step) {
+  const auto columns = Eigen::seqN(0, (window.time.size() + step - 1) / step, step);
+  ResponseWindow samples;
+  samples.samples_per_cycle = window.samples_per_cycle / step;
+  samples.time = window.time(columns);
   for (const auto part : {&ResponseWindow::force, &ResponseWindow::displacement, &ResponseWindow::velocity})
-    half.*part = (window.*part)(Eigen::all, columns);
-  return half;
+    samples.*part = (window.*part)(Eigen::all, columns);
+  return samples;
 }
 
 double force_difference(const SteadyResponse& found, Eigen::Index meshes) {
@@ -32,7 +32,7 @@ std::vector<ResponseWindow> compared_windows(const SteadyResponse& found) {
   std::vector<ResponseWindow> others;
   for (const auto* other : {&found.before, &found.loose})
     if (*other && (*other)->displacement.size() > 0) others.push_back(**other);
-  if (found.best.jumps()) others.push_back(every_second_sample(found.best));
+  if (found.best.jumps()) others.push_back(samples_of(found.best, 2));
   return others;
 }
 

@@ -10,8 +10,8 @@
 /// Results that are read from the motion in a steady state, and the windows of it that should agree about them.
 namespace annulus::dynamics {
 
-/// Every second time of a window, without its jumps and closer times.
-[[nodiscard]] ResponseWindow every_second_sample(const ResponseWindow& window);
+/// Every `step`-th time of a window, without its jumps and closer times.
+[[nodiscard]] ResponseWindow samples_of(const ResponseWindow& window, int step = 1);
 
 /// The largest difference (N) of a mesh force to other windows of which only the forces are known; 0 where there are
 /// none. `meshes`: that many, the first ones.

@@ -63,7 +63,7 @@ class BodyMotion {
   BodyMotion(const PlanetaryStage& stage, const LumpedSystem& system, const ResponseWindow& window)
       : stage_(stage),
         system_(system),
-        series_(series_of(system, window)),
+        series_(series_of(system, samples_of(window))),
         forces_(stage_forces(stage, system, series_)),
         resultant_(forces_.pins.resultant()),
         per_(stage) {}
