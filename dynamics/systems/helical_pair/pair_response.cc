@@ -64,6 +64,18 @@ struct WindowPeaks {
 
 Peak magnitude(const Row& values) { return peak_of(values.cwiseAbs()); }
 
+/// From the closest times, and both sides of jumps.
+Range force_range(const ResponseWindow& window) {
+  Range range((window.dense_force.size() > 0 ? window.dense_force : window.force).row(0));
+  for (const auto* side : {&window.force_before, &window.force_after}) {
+    if (!window.jumps()) break;
+    const double high = side->row(0).maxCoeff(), low = side->row(0).minCoeff();
+    range.high = higher(range.high, {high, high});
+    range.low = higher(range.low, {-low, -low});
+  }
+  return range;
+}
+
 WindowPeaks peaks_of(const HelicalPair& pair, const LumpedSystem& system, const ResponseWindow& window) {
   WindowPeaks p;
   const Eigen::MatrixXd a = accelerations(system, window.time, window.displacement, window.velocity);
@@ -80,7 +92,7 @@ WindowPeaks peaks_of(const HelicalPair& pair, const LumpedSystem& system, const 
   const MotionRows rows = motion_rows(pair, system, window.displacement);
   p.te = Range(rows.transmission_error);
   p.relative = Range(rows.relative);
-  p.force = Range(window.force.row(0));
+  p.force = force_range(window);
   return p;
 }
 
