@@ -464,7 +464,7 @@ BOOST_AUTO_TEST_CASE(the_plan_counts_what_is_to_come) {
     BOOST_TEST(study.seconds > 0);
   }
   BOOST_TEST(app::to_text(plan).find("[monte_carlo]: 45 samples of 5 random inputs") != std::string::npos);
-  BOOST_TEST(app::to_json(plan).at("studies")[0]["responses"] == 18);
+  BOOST_TEST(app::to_json(plan).at("studies").at(0).at("responses").get<int>() == 18);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

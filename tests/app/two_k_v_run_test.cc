@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(plan_and_scenes_without_dynamics) {
   BOOST_TEST(plan.meshes.size() == 2U);
   BOOST_TEST(plan.meshes[1].fidelity == "line_contact");
   BOOST_TEST(plan.dofs.size() == 8U);
-  BOOST_TEST(app::to_json(app::make_plan(scene)).find("\"ratio\": 103") != std::string::npos);
+  BOOST_TEST(text_of(app::to_json(app::make_plan(scene))).find("\"ratio\": 103") != std::string::npos);
   const test::TemporaryFolder folder("reducer_solve");
   auto text = test::reducer_scene();
   text.erase(text.find("[dynamics]"));
