@@ -36,14 +36,28 @@ std::vector<ResponseWindow> compared_windows(const SteadyResponse& found) {
   return others;
 }
 
+double force_between_samples(const ResponseWindow& window, Eigen::Index meshes) {
+  double largest = 0;
+  for (Eigen::Index m = 0; m < meshes; ++m) {
+    const auto amount = [m](const Eigen::MatrixXd& force) -> Eigen::RowVectorXd { return force.row(m).cwiseAbs(); };
+    const double sampled = peak_of(amount(window.force), window.after_jump).refined;
+    double closer = sampled;
+    if (window.dense_force.size() > 0) closer = peak_of(amount(window.dense_force), window.dense_after_jump).refined;
+    for (const auto* side : {&window.force_before, &window.force_after})
+      if (side->size() > 0) closer = std::max(closer, amount(*side).maxCoeff());
+    largest = std::max(largest, std::abs(closer - sampled));
+  }
+  return largest;
+}
+
 std::vector<Figure> window_figures(const SteadyResponse& found, Eigen::Index meshes,
                                    const std::function<std::vector<WindowValue>(const ResponseWindow&)>& values) {
   const auto best = values(found.best);
-  const double difference = force_difference(found, meshes);
+  const double difference = force_difference(found, meshes), missed = force_between_samples(found.best, meshes);
   std::vector<Figure> figures;
   for (const auto& value : best) {
     figures.push_back(figure(value.peak, {}));
-    figures.back().error += value.per_force * difference;
+    figures.back().error += value.per_force * (difference + (value.of == ValueOf::one_instant ? missed : 0));
   }
   for (const auto& window : compared_windows(found)) {
     const auto other = values(window);

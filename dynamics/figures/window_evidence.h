@@ -21,14 +21,20 @@ namespace annulus::dynamics {
 /// of a looser integration. Behind jumps motions may vibrate between the samples: then also every second of them.
 [[nodiscard]] std::vector<ResponseWindow> compared_windows(const SteadyResponse& found);
 
+/// By how much the largest force of a mesh at closer times, or on both sides of jumps, differs from that of the samples
+/// (N), the largest of the first `meshes` meshes.
+[[nodiscard]] double force_between_samples(const ResponseWindow& window, Eigen::Index meshes);
+
+enum class ValueOf { all_times, one_instant };
 /// A value of a window, and by how much it may change with a mesh force.
 struct WindowValue {
   Peak peak{};
   double per_force = 0;  ///< its unit per N
+  ValueOf of = ValueOf::one_instant;
 };
 /// The values of the best window. Their errors contain the sampling, the differences to the compared windows, and the
-/// difference of the forces of the first `meshes` meshes where nothing else is known. `values` gives the same number of
-/// values for every window.
+/// difference of the forces of the first `meshes` meshes where nothing else is known; those of one instant what forces
+/// do between the samples, too. `values` gives the same number of values for every window.
 [[nodiscard]] std::vector<Figure> window_figures(
     const SteadyResponse& found, Eigen::Index meshes,
     const std::function<std::vector<WindowValue>(const ResponseWindow&)>& values);

@@ -89,9 +89,9 @@ struct StressCurve {
 
   geometry::GearRole body = geometry::GearRole::pinion;
   Along along = Along::root;
-  std::size_t position = 0;      ///< index into LoadedMeshResult::positions: where its largest von Mises stress occurs
-  std::vector<double> abscissa;  ///< root: arc length counter-clockwise through the tooth space, from form circle to
-                                 ///< form circle, m; rim: polar angle in the wheel's own frame, rad
+  std::size_t position = 0;  ///< index into LoadedMeshResult::positions: where its largest von Mises stress occurs
+  std::vector<double> abscissa{};  ///< root: arc length counter-clockwise through the tooth space, from form circle to
+                                   ///< form circle, m; rim: polar angle in the wheel's own frame, rad
   std::vector<double> tangential{}, von_mises{};  ///< Pa
 };
 

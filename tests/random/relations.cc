@@ -49,7 +49,8 @@ Relation size() {
       {"_Nm_per_rad", 8}, {"_kg_m2", 32}, {"_N_per_m", 2}, {"_kg", 8}, {"_mm", 2},
       {"_um", 2},         {"_rpm", 0.5},  {"_kW", 4},      {"_Nm", 8}};
   static const std::vector<std::pair<const char*, double>> results = {
-      {"_Nm_per_rad", 8}, {"_N_per_m", 2}, {"_m_per_s2", 0.5}, {"_Hz", 0.5}, {"_m", 2}, {"_N", 4}};
+      {"_Nm_per_rad", 8}, {"_N_per_m", 2}, {"_m_per_s2", 0.5}, {"_Hz", 0.5},
+      {"_N_per_rad", 4},  {"_m", 2},       {"_N", 4},          {"_Nm", 8}};
   return {"twice the size", Agreement::rounding,
           [](const RandomScene& scene) -> std::optional<RunPair> {
             if (has_fixed_sizes(scene.draft)) return std::nullopt;
@@ -69,7 +70,7 @@ Relation material() {
       {"_Nm_per_rad", 4}, {"_kg_m2", 4}, {"_N_per_m", 4}, {"_kg", 4},
       {"_kg_per_m3", 4},  {"_GPa", 4},   {"_kW", 4},      {"_Nm", 4}};
   static const std::vector<std::pair<const char*, double>> results = {
-      {"_Nm_per_rad", 4}, {"_N_per_m", 4}, {"_N", 4}, {"_Pa", 4}};
+      {"_Nm_per_rad", 4}, {"_N_per_m", 4}, {"_N_per_rad", 4}, {"_N", 4}, {"_Nm", 4}, {"_Pa", 4}};
   return {"material four times as stiff", Agreement::rounding,
           [](const RandomScene& scene) -> std::optional<RunPair> {
             if (has_fixed_sizes(scene.draft) || scene.draft.number("material.youngs_modulus_GPa") * 4 > 1e3)

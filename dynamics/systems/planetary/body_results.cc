@@ -18,6 +18,7 @@ namespace annulus::dynamics {
 namespace {
 
 Peak same(double value) { return {value, value}; }
+WindowValue average(double value, double per_force) { return {same(value), per_force, ValueOf::all_times}; }
 
 /// How much a difference of 1 N of mesh forces may change forces and deflections.
 struct PerForce {
@@ -49,7 +50,9 @@ double zone_per_force(const PlanetaryStage& stage, const Eigen::MatrixXd& result
   return std::abs(law.load_zone(force * (1 + small)) - law.load_zone(force)) / (small * force);
 }
 
-WindowValue rms_of(const Eigen::MatrixXd& rows, double per_force) { return {same(largest_range(rows).rms), per_force}; }
+WindowValue rms_of(const Eigen::MatrixXd& rows, double per_force) {
+  return average(largest_range(rows).rms, per_force);
+}
 
 WindowValue swing_of_rows(const Eigen::MatrixXd& rows, double per_force) {
   Peak largest = swing_of(rows.row(0));
@@ -71,7 +74,7 @@ class BodyMotion {
   [[nodiscard]] std::vector<WindowValue> values() {
     for (Eigen::Index n = 0; n < resultant_.rows(); ++n) {
       add(peak_of(resultant_.row(n)), per_.of_planet);
-      add(same(forces_.pins.tangential.row(n).mean()), per_.of_planet);
+      values_.push_back(average(forces_.pins.tangential.row(n).mean(), per_.of_planet));
     }
     add(peak_of_rows(resultant_), per_.of_planet);
     add(load_zone(stage_, resultant_), per_.of_planet * zone_per_force(stage_, resultant_));
@@ -98,7 +101,7 @@ class BodyMotion {
     const auto& held = *stage_.held == StageMember::sun    ? forces_.sun
                        : *stage_.held == StageMember::ring ? forces_.ring
                                                            : forces_.carrier;
-    add(same(held.torque.mean()), per_.of_planets * stage_.body(*stage_.held).radius);
+    values_.push_back(average(held.torque.mean(), per_.of_planets * stage_.body(*stage_.held).radius));
   }
 
   void add_sun() {
@@ -114,7 +117,7 @@ class BodyMotion {
     place.colwise() -= place.rowwise().mean().eval();
     add(peak_of(place.colwise().norm()), per);
     add(peak_of(from_axis), per);
-    add(same(std::sqrt(place.colwise().squaredNorm().mean())), per);
+    values_.push_back(average(std::sqrt(place.colwise().squaredNorm().mean()), per));
     values_.push_back(swing_of_rows(place, per));
   }
 
