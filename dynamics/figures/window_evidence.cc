@@ -36,33 +36,53 @@ std::vector<ResponseWindow> compared_windows(const SteadyResponse& found) {
   return others;
 }
 
-double force_between_samples(const ResponseWindow& window, Eigen::Index meshes) {
-  double largest = 0;
-  for (Eigen::Index m = 0; m < meshes; ++m) {
-    const auto amount = [m](const Eigen::MatrixXd& force) -> Eigen::RowVectorXd { return force.row(m).cwiseAbs(); };
-    const double sampled = peak_of(amount(window.force), window.after_jump).refined;
-    double closer = sampled;
-    if (window.dense_force.size() > 0) closer = peak_of(amount(window.dense_force), window.dense_after_jump).refined;
-    for (const auto* side : {&window.force_before, &window.force_after})
-      if (side->size() > 0) closer = std::max(closer, amount(*side).maxCoeff());
-    largest = std::max(largest, std::abs(closer - sampled));
+ResponseWindow closer_samples(const LumpedSystem& system, const ResponseWindow& window, int pieces) {
+  const Eigen::Index samples = window.time.size(), times = (samples - 1) * pieces + 1;
+  const int n = system.dofs();
+  ResponseWindow closer;
+  closer.samples_per_cycle = window.samples_per_cycle * pieces;
+  closer.time.resize(times);
+  closer.displacement.resize(n, times);
+  closer.velocity.resize(n, times);
+  closer.force.resize(window.force.rows(), times);
+  auto workspace = system.workspace();
+  Eigen::VectorXd state(2 * n), rate(2 * n);
+  for (Eigen::Index i = 0; i < times; ++i) {
+    const Eigen::Index from = std::min(i / pieces, samples - 2), to = from + 1;
+    const double step = window.time[to] - window.time[from];
+    const double s = static_cast<double>(i - from * pieces) / pieces, r = 1 - s;
+    const auto q0 = window.displacement.col(from), q1 = window.displacement.col(to);
+    const auto v0 = window.velocity.col(from), v1 = window.velocity.col(to);
+    state.head(n) = r * r * (1 + 2 * s) * q0 + s * s * (1 + 2 * r) * q1 + step * r * s * (r * v0 - s * v1);
+    state.tail(n) = 6 * r * s / step * (q1 - q0) + r * (r - 2 * s) * v0 + s * (s - 2 * r) * v1;
+    closer.time[i] = window.time[from] + s * step;
+    system.detect_contact(closer.time[i], state.data(), workspace);
+    system.rhs(closer.time[i], state.data(), rate.data(), workspace);
+    closer.displacement.col(i) = state.head(n);
+    closer.velocity.col(i) = state.tail(n);
+    closer.force.col(i) = Eigen::Map<const Eigen::VectorXd>(workspace.force.data(), closer.force.rows());
   }
-  return largest;
+  return closer;
 }
 
-std::vector<Figure> window_figures(const SteadyResponse& found, Eigen::Index meshes,
+std::vector<Figure> window_figures(const LumpedSystem& system, const SteadyResponse& found,
                                    const std::function<std::vector<WindowValue>(const ResponseWindow&)>& values) {
-  const auto best = values(found.best);
-  const double difference = force_difference(found, meshes), missed = force_between_samples(found.best, meshes);
+  constexpr int pieces = 4;
+  const auto sampled = values(found.best);
+  const auto closer =
+      found.best.jumps() && found.best.time.size() > 1 ? values(closer_samples(system, found.best, pieces)) : sampled;
+  const double difference = force_difference(found, found.best.force.rows());
   std::vector<Figure> figures;
-  for (const auto& value : best) {
-    figures.push_back(figure(value.peak, {}));
-    figures.back().error += value.per_force * (difference + (value.of == ValueOf::one_instant ? missed : 0));
+  for (std::size_t i = 0; i < sampled.size(); ++i) {
+    const auto& value = sampled[i];
+    const auto& best = value.of == ValueOf::one_instant ? closer[i].peak : value.peak;
+    figures.push_back(figure(best, {value.peak}));
+    figures.back().error += value.per_force * difference;
   }
   for (const auto& window : compared_windows(found)) {
     const auto other = values(window);
-    for (std::size_t i = 0; i < best.size(); ++i)
-      figures[i].error += std::abs(best[i].peak.refined - other[i].peak.refined);
+    for (std::size_t i = 0; i < sampled.size(); ++i)
+      figures[i].error += std::abs(sampled[i].peak.refined - other[i].peak.refined);
   }
   return figures;
 }

@@ -21,9 +21,9 @@ namespace annulus::dynamics {
 /// of a looser integration. Behind jumps motions may vibrate between the samples: then also every second of them.
 [[nodiscard]] std::vector<ResponseWindow> compared_windows(const SteadyResponse& found);
 
-/// By how much the largest force of a mesh at closer times, or on both sides of jumps, differs from that of the samples
-/// (N), the largest of the first `meshes` meshes.
-[[nodiscard]] double force_between_samples(const ResponseWindow& window, Eigen::Index meshes);
+/// A window at `pieces` times as many times up to its last sample: motions from displacements and velocities of the
+/// samples by cubics, forces from these motions.
+[[nodiscard]] ResponseWindow closer_samples(const LumpedSystem& system, const ResponseWindow& window, int pieces);
 
 enum class ValueOf { all_times, one_instant };
 /// A value of a window, and by how much it may change with a mesh force.
@@ -33,10 +33,10 @@ struct WindowValue {
   ValueOf of = ValueOf::one_instant;
 };
 /// The values of the best window. Their errors contain the sampling, the differences to the compared windows, and the
-/// difference of the forces of the first `meshes` meshes where nothing else is known; those of one instant what forces
-/// do between the samples, too. `values` gives the same number of values for every window.
+/// difference of mesh forces where nothing else is known. Behind jumps values of one instant are those of closer
+/// samples, and their error contains what these change. `values` gives the same number of values for every window.
 [[nodiscard]] std::vector<Figure> window_figures(
-    const SteadyResponse& found, Eigen::Index meshes,
+    const LumpedSystem& system, const SteadyResponse& found,
     const std::function<std::vector<WindowValue>(const ResponseWindow&)>& values);
 
 }  // namespace annulus::dynamics

@@ -133,9 +133,8 @@ class BodyMotion {
 }  // namespace
 
 BodyResults body_results(const PlanetaryStage& stage, const LumpedSystem& system, const SteadyResponse& found) {
-  const auto figures =
-      window_figures(found, static_cast<Eigen::Index>(system.meshes().size()),
-                     [&](const ResponseWindow& window) { return BodyMotion(stage, system, window).values(); });
+  const auto figures = window_figures(
+      system, found, [&](const ResponseWindow& window) { return BodyMotion(stage, system, window).values(); });
   auto next = figures.begin();
   BodyResults results;
   results.pins.resize(static_cast<std::size_t>(stage.planets()));
