@@ -214,7 +214,7 @@ BOOST_AUTO_TEST_CASE(errors_are_the_sum_of_their_parts_and_are_kept) {
   const TableScene scene;
   const auto first = scene.run(folder.path());
   const auto parts = pairs(*first.rings[0].response);
-  BOOST_TEST(parts.size() == 26U);
+  BOOST_TEST(parts.size() == 49U);
   for (const auto& [key, figure, e] : parts) {
     BOOST_TEST(figure.error == e.integration + of_stiffness(e) + e.interpolation, boost::test_tools::tolerance(1e-13));
     BOOST_TEST(e.discretisation > 0);
