@@ -87,9 +87,12 @@ double RadialBearing::energy(double distance) const {
 }
 
 double RadialBearing::distance(double force) const {
-  const double seat = std::isinf(seat_) ? 0.0 : force / seat_;
+  return between_rings_under(force) + (std::isinf(seat_) ? 0.0 : force / seat_);
+}
+
+double RadialBearing::between_rings_under(double force) const {
   // Within the play only the rest of the stiffness acts; beyond it Newton's method from above, as before.
-  if (force <= unloaded * stiffness_ * play_) return force / (unloaded * stiffness_) + seat;
+  if (force <= unloaded * stiffness_ * play_) return force / (unloaded * stiffness_);
   // Steeper than this it never is less: F >= K (d - p 4 / pi), the tangent at infinity.
   double rings = force / stiffness_ + 4 / std::numbers::pi * play_;
   constexpr int steps = 200;
@@ -97,7 +100,7 @@ double RadialBearing::distance(double force) const {
     const auto [value, slope] = of_rollers(rings);
     const double change = (value - force) / slope;
     rings -= change;
-    if (!(change > rounding * rings)) return rings + seat;
+    if (!(change > rounding * rings)) return rings;
   }
   throw SolverError(
       fmt::format("a bearing of {:g} N/m with {:g} m of play: no distance under {:g} N", stiffness_, play_, force));
@@ -105,11 +108,11 @@ double RadialBearing::distance(double force) const {
 
 double RadialBearing::load_zone(double force) const {
   if (play_ == 0) return std::numbers::pi;
-  return 2 * zone_of(play_, between_rings(distance(force))).angle;
+  return 2 * zone_of(play_, between_rings_under(force)).angle;
 }
 
 double RadialBearing::roller_load(double force, double angle) const {
-  return 2 * stiffness_ / std::numbers::pi * std::max(0.0, between_rings(distance(force)) * std::cos(angle) - play_);
+  return 2 * stiffness_ / std::numbers::pi * std::max(0.0, between_rings_under(force) * std::cos(angle) - play_);
 }
 
 }  // namespace annulus

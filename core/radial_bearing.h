@@ -38,6 +38,7 @@ class RadialBearing {
   [[nodiscard]] Value of_rollers(double distance) const;
   /// Distance of the rings under their share of the whole one.
   [[nodiscard]] double between_rings(double distance) const;
+  [[nodiscard]] double between_rings_under(double force) const;
 
   double stiffness_ = 1, play_ = 0, seat_ = std::numeric_limits<double>::infinity();
 };

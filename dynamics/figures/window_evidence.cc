@@ -65,24 +65,23 @@ ResponseWindow closer_samples(const LumpedSystem& system, const ResponseWindow& 
   return closer;
 }
 
-std::vector<Figure> window_figures(const LumpedSystem& system, const SteadyResponse& found,
-                                   const std::function<std::vector<WindowValue>(const ResponseWindow&)>& values) {
+FigureSet window_figures(const LumpedSystem& system, const SteadyResponse& found,
+                         const std::function<WindowValues(const ResponseWindow&)>& values) {
+  // Samples resolve the highest excited frequency by four (SimulationOptions); sixteen are near every peak.
   constexpr int pieces = 4;
   const auto sampled = values(found.best);
   const auto closer =
       found.best.jumps() && found.best.time.size() > 1 ? values(closer_samples(system, found.best, pieces)) : sampled;
+  std::vector<WindowValues> others;
+  for (const auto& window : compared_windows(found)) others.push_back(values(window));
   const double difference = force_difference(found, found.best.force.rows());
-  std::vector<Figure> figures;
+  FigureSet figures;
   for (std::size_t i = 0; i < sampled.size(); ++i) {
-    const auto& value = sampled[i];
-    const auto& best = value.of == ValueOf::one_instant ? closer[i].peak : value.peak;
-    figures.push_back(figure(best, {value.peak}));
-    figures.back().error += value.per_force * difference;
-  }
-  for (const auto& window : compared_windows(found)) {
-    const auto other = values(window);
-    for (std::size_t i = 0; i < sampled.size(); ++i)
-      figures[i].error += std::abs(sampled[i].peak.refined - other[i].peak.refined);
+    const auto& [key, value] = sampled[i];
+    auto result = figure(value.of == ValueOf::one_instant ? closer[i].second.peak : value.peak, {value.peak});
+    result.error += value.per_force * difference;
+    for (const auto& other : others) result.error += std::abs(value.peak.refined - other[i].second.peak.refined);
+    figures.set(key, result);
   }
   return figures;
 }

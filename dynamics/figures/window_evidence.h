@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/figure.h"
@@ -32,11 +34,13 @@ struct WindowValue {
   double per_force = 0;  ///< its unit per N
   ValueOf of = ValueOf::one_instant;
 };
+/// By the keys of results.
+using WindowValues = std::vector<std::pair<std::string, WindowValue>>;
+
 /// The values of the best window. Their errors contain the sampling, the differences to the compared windows, and the
 /// difference of mesh forces where nothing else is known. Behind jumps values of one instant are those of closer
-/// samples, and their error contains what these change. `values` gives the same number of values for every window.
-[[nodiscard]] std::vector<Figure> window_figures(
-    const LumpedSystem& system, const SteadyResponse& found,
-    const std::function<std::vector<WindowValue>(const ResponseWindow&)>& values);
+/// samples, and their error contains what these change. `values` gives the same keys for every window.
+[[nodiscard]] FigureSet window_figures(const LumpedSystem& system, const SteadyResponse& found,
+                                       const std::function<WindowValues(const ResponseWindow&)>& values);
 
 }  // namespace annulus::dynamics

@@ -108,7 +108,7 @@ struct Partition {
 Partition partition_of(int dofs, const std::vector<int>& retained) {
   Partition partition{retained, {}, std::vector<int>(dofs, -1), std::vector<int>(dofs, -1)};
   for (std::size_t k = 0; k < retained.size(); ++k) {
-    require(partition.number_among_retained[retained[k]] < 0, "degree of freedom ", retained[k], " is retained twice");
+    require(partition.number_among_retained[retained[k]] < 0, "DOF ", retained[k], " is retained twice");
     partition.number_among_retained[retained[k]] = static_cast<int>(k);
   }
   partition.interior.reserve(dofs - retained.size());

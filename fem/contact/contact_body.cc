@@ -345,7 +345,7 @@ ContactBody::Block ResolvedBody::block(int tooth_a, int tooth_b) const {
 
 ContactBody::Flank ResolvedBody::flank_of(int tooth) const {
   require(tooth >= first_tooth_ && tooth < first_tooth_ + static_cast<int>(teeth_.size()), "tooth ", tooth,
-          " is without a mesh; those from ", first_tooth_, " on have one: ", teeth_.size());
+          " has no mesh; the first of ", teeth_.size(), " that have one is ", first_tooth_);
   return {teeth_[tooth - first_tooth_], motions_[tooth - first_tooth_], tooth};
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <mutex>
 
 #include <Eigen/Geometry>
 
@@ -247,11 +248,8 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
 SectorModel sector_model(const geometry::Mesh& mesh, const geometry::ToothProfile& profile, double support_radius,
                          const Material& material, const SectorModelOptions& options) {
   // Bodies are built on threads of our own. Tasks of deal.II beside them end the program where memory does (ulimit -v).
-  static const bool alone = [] {
-    dealii::MultithreadInfo::set_thread_limit(1);
-    return true;
-  }();
-  require(alone, "deal.II without a limit of its threads");
+  static std::once_flag limited;
+  std::call_once(limited, [] { dealii::MultithreadInfo::set_thread_limit(1); });
   return mesh.dimension == 2 ? discretise<2>(mesh, profile, support_radius, material, options)
                              : discretise<3>(mesh, profile, support_radius, material, options);
 }

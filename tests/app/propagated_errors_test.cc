@@ -93,6 +93,8 @@ std::vector<Pair> pairs(const app::StageResponse& r) {
   dynamics::for_each_figure(r.figures, [&](const std::string& key, const Figure& figure) {
     if (!key.ends_with("contact_loss")) list.push_back({key, figure, r.errors.find(key)->parts});
   });
+  for (const auto& [key, figure, parts, spread] : r.figures.bodies.entries())
+    list.push_back({key, figure, r.errors.find(key)->parts});
   return list;
 }
 

@@ -56,9 +56,6 @@ FigureSet response_figures(const StageResponse& response) {
               parts(dynamics::branch_key(kind.name, worst, quantity)));
     }
   }
-  for (const auto& quantity : dynamics::body_quantities)
-    if (const auto* entry = response.errors.find(quantity.key))
-      set.set(entry->key, f.bodies.*quantity.value, entry->parts);
   if (!f.shafts.empty()) {
     const auto& shaft = f.shafts[dynamics::worst_shaft(f.shafts)];
     if (shaft.nominal_torque > 0)

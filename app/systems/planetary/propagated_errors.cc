@@ -23,6 +23,7 @@ dynamics::Evaluation evaluation_of(const DynamicResponse& response) {
   dynamics::Evaluation evaluation{.figures = {}, .outcome = static_cast<const dynamics::SteadyOutcome&>(response)};
   dynamics::for_each_figure(response,
                             [&](const std::string& key, const Figure& figure) { evaluation.figures.set(key, figure); });
+  evaluation.figures.add(response.bodies);
   return evaluation;
 }
 
@@ -80,6 +81,8 @@ FigureSet propagated_errors(const DynamicResponse& nominal, const dynamics::Simu
 void set_errors(const FigureSet& errors, DynamicResponse& response) {
   dynamics::for_each_figure(
       response, [&](const std::string& key, Figure& figure) { figure.error = errors.find(key)->parts.total(); });
+  for (const auto& [key, figure, parts, spread] : errors.entries())
+    if (response.bodies.find(key)) response.bodies.set(key, {figure.value, parts.total()}, parts);
 }
 
 }  // namespace annulus::app

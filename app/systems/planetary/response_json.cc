@@ -48,23 +48,6 @@ Json motion_json(const StageMotion& m) {
           {"section_clusters", m.section_clusters}};
 }
 
-/// Of pins, supports and the sun.
-Json bodies_json(const StageResponse& response) {
-  const auto& bodies = response.figures.bodies;
-  Json json = {{"pins", Json::array()}};
-  for (std::size_t n = 0; n < bodies.pins.size(); ++n) {
-    Json pin;
-    for (const auto& quantity : dynamics::pin_quantities)
-      pin[quantity.name] =
-          to_json(bodies.pins[n].*quantity.value, response.errors.find(dynamics::pin_key(n, quantity))->parts);
-    json["pins"].push_back(std::move(pin));
-  }
-  for (const auto& quantity : dynamics::body_quantities)
-    if (const auto* entry = response.errors.find(quantity.key))
-      json[quantity.key] = to_json(bodies.*quantity.value, entry->parts);
-  return json;
-}
-
 Json periodic_json(const std::optional<dynamics::PeriodicSolution>& periodic) {
   if (!periodic) return nullptr;
   constexpr const char* methods[] = {"harmonic_balance", "two_frequencies", "piecewise"};
@@ -101,7 +84,7 @@ Json response_json(const StageResponse& response, const std::string& id) {
   for (const auto& kind : dynamics::stage_mesh_kinds) json[kind.name] = kind_json(response, kind);
   json["modes"] = modes_json(response.modes);
   json["motion"] = motion_json(response.motion);
-  json["bodies"] = bodies_json(response);
+  json["bodies"] = to_json(f.bodies);
   return json;
 }
 

@@ -36,10 +36,6 @@ ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
 ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_factor, mean_force, contact_loss,
                 back_flanks);
 ANNULUS_MEMBERS(dynamics::MeshKindResult, load_sharing, branches);
-ANNULUS_MEMBERS(dynamics::BodyResults::Pin, largest, tangential);
-ANNULUS_MEMBERS(dynamics::BodyResults, pins, pin_force, pin_load_zone, sun_support, ring_support, carrier_support,
-                held_torque, sun_orbit, sun_distance, sun_rms, sun_swing, sun_mesh_rms, sun_mesh_swing, ring_mesh_rms,
-                ring_mesh_swing);
 /// Without its time series.
 template <>
 struct Members<dynamics::DynamicResponse> {

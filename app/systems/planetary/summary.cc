@@ -78,21 +78,21 @@ void add_mesh_results(Json& ring, const StageResponse& response, const dynamics:
 }
 
 /// Lists over the planets, and the largest forces of supports; all with their errors among the results of the variant.
-Json bearing_forces_json(const dynamics::BodyResults& bodies) {
+Json bearing_forces_json(const FigureSet& bodies) {
   auto largest = Json::array(), error = largest, tangential = largest;
-  for (const auto& pin : bodies.pins) {
-    largest.push_back(json_number(pin.largest.value));
-    error.push_back(json_number(pin.largest.error));
-    tangential.push_back(json_number(pin.tangential.value));
+  for (std::size_t n = 0; const auto* entry = bodies.find(dynamics::pin_key(n, dynamics::pin_force)); ++n) {
+    largest.push_back(json_number(entry->figure.value));
+    error.push_back(json_number(entry->figure.error));
+    tangential.push_back(json_number(bodies.value(dynamics::pin_key(n, dynamics::pin_tangential_force))));
   }
   return {{"planet_max_N", std::move(largest)},
           {"planet_max_error_N", std::move(error)},
           {"planet_mean_tangential_N", std::move(tangential)},
-          {"load_zone_min_deg", json_number(bodies.pin_load_zone.value / units::deg)},
-          {"sun_support_max_N", json_number(bodies.sun_support.value)},
-          {"ring_support_max_N", json_number(bodies.ring_support.value)},
-          {"carrier_support_max_N", json_number(bodies.carrier_support.value)},
-          {"held_torque_mean_N_m", json_number(bodies.held_torque.value)}};
+          {"load_zone_min_deg", json_number(bodies.value("planet_bearing_load_zone_rad") / units::deg)},
+          {"sun_support_max_N", json_number(bodies.value("sun_support_force_N"))},
+          {"ring_support_max_N", json_number(bodies.value("ring_support_force_N"))},
+          {"carrier_support_max_N", json_number(bodies.value("carrier_support_force_N"))},
+          {"held_torque_mean_N_m", json_number(bodies.value("held_torque_Nm"))}};
 }
 
 double worst(const MeshResult& a, const MeshResult& b, const std::string& fact) {
@@ -139,8 +139,8 @@ Json ring_json(const RunResult& result, std::size_t number) {
   const auto& m = ring.response->motion;
   json["bearing_forces"] = bearing_forces_json(f.bodies);
   add_json(json, m.space);
-  json["sun_orbit"] = {{"extent_m", json_number(f.bodies.sun_orbit.value)},
-                       {"largest_m", json_number(f.bodies.sun_distance.value)}};
+  json["sun_orbit"] = {{"extent_m", json_number(f.bodies.value("sun_orbit_m"))},
+                       {"largest_m", json_number(f.bodies.value("sun_distance_m"))}};
   json["poincare"] = {{"section", m.section},
                       {"period_cycles", m.section_period ? Json(*m.section_period) : Json(nullptr)},
                       {"clusters", m.section_clusters}};

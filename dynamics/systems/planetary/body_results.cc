@@ -50,17 +50,12 @@ double zone_per_force(const PlanetaryStage& stage, const Eigen::MatrixXd& result
   return std::abs(law.load_zone(force * (1 + small)) - law.load_zone(force)) / (small * force);
 }
 
-WindowValue rms_of(const Eigen::MatrixXd& rows, double per_force) {
-  return average(largest_range(rows).rms, per_force);
-}
-
-WindowValue swing_of_rows(const Eigen::MatrixXd& rows, double per_force) {
+Peak largest_swing(const Eigen::MatrixXd& rows) {
   Peak largest = swing_of(rows.row(0));
   for (Eigen::Index i = 1; i < rows.rows(); ++i) largest = higher(largest, swing_of(rows.row(i)));
-  return {largest, 2 * per_force};
+  return largest;
 }
 
-/// The values of a window: of each pin, then those of body_quantities.
 class BodyMotion {
  public:
   BodyMotion(const PlanetaryStage& stage, const LumpedSystem& system, const ResponseWindow& window)
@@ -68,84 +63,85 @@ class BodyMotion {
         system_(system),
         series_(series_of(system, samples_of(window))),
         forces_(stage_forces(stage, system, series_)),
-        resultant_(forces_.pins.resultant()),
         per_(stage) {}
 
-  [[nodiscard]] std::vector<WindowValue> values() {
-    for (Eigen::Index n = 0; n < resultant_.rows(); ++n) {
-      add(peak_of(resultant_.row(n)), per_.of_planet);
-      values_.push_back(average(forces_.pins.tangential.row(n).mean(), per_.of_planet));
-    }
-    add(peak_of_rows(resultant_), per_.of_planet);
-    add(load_zone(stage_, resultant_), per_.of_planet * zone_per_force(stage_, resultant_));
-    for (const auto* support : {&forces_.sun, &forces_.ring, &forces_.carrier})
-      add(peak_of(support->magnitude().transpose()), per_.of_planets);
-    add_held();
+  [[nodiscard]] WindowValues values() {
+    add_pins();
+    add_supports();
     add_sun();
     const auto n = stage_.planets();
     const Eigen::MatrixXd approach = deflections(system_, series_.time, series_.displacement);
-    for (const Eigen::MatrixXd& rows :
-         {Eigen::MatrixXd(approach.topRows(n)), Eigen::MatrixXd(approach.middleRows(n, n))}) {
-      values_.push_back(rms_of(rows, per_.deflection));
-      values_.push_back(swing_of_rows(rows, per_.deflection));
-    }
+    add_motion("sun_planet_deflection", approach.topRows(n));
+    add_motion("ring_planet_deflection", approach.middleRows(n, n));
     return std::move(values_);
   }
 
  private:
-  void add(const Peak& peak, double per_force) { values_.push_back({peak, per_force}); }
+  void add(const std::string& key, const WindowValue& value) { values_.emplace_back(key, value); }
 
-  void add_held() {
+  void add_pins() {
+    const Eigen::MatrixXd resultant = forces_.pins.resultant();
+    for (Eigen::Index n = 0; n < resultant.rows(); ++n) {
+      const auto key = [n](const char* quantity) { return pin_key(static_cast<std::size_t>(n), quantity); };
+      add(key(pin_force), {peak_of(resultant.row(n)), per_.of_planet});
+      add(key(pin_tangential_force), average(forces_.pins.tangential.row(n).mean(), per_.of_planet));
+    }
+    add("planet_bearing_force_N", {peak_of_rows(resultant), per_.of_planet});
+    if (const auto zone = load_zone(stage_, resultant); !std::isnan(zone.refined))
+      add("planet_bearing_load_zone_rad", {zone, per_.of_planet * zone_per_force(stage_, resultant)});
+  }
+
+  void add_supports() {
+    const auto largest = [&](const SupportReaction& reaction) -> WindowValue {
+      return {peak_of(reaction.magnitude().transpose()), per_.of_planets};
+    };
+    add("sun_support_force_N", largest(forces_.sun));
+    add("ring_support_force_N", largest(forces_.ring));
+    add("carrier_support_force_N", largest(forces_.carrier));
     using geometry::StageMember;
-    if (!stage_.held) return add(same(not_known), 0);
+    if (!stage_.held) return;
     const auto& held = *stage_.held == StageMember::sun    ? forces_.sun
                        : *stage_.held == StageMember::ring ? forces_.ring
                                                            : forces_.carrier;
-    values_.push_back(average(held.torque.mean(), per_.of_planets * stage_.body(*stage_.held).radius));
+    add("held_torque_Nm", average(held.torque.mean(), per_.of_planets * stage_.body(*stage_.held).radius));
   }
 
   void add_sun() {
     const int x = system_.find("sun_x"), y = system_.find("sun_y");
     const double per = stage_.planets() * per_.deflection;
-    if (x < 0 || y < 0) {
-      for (int i = 0; i < 4; ++i) add(same(not_known), 0);
-      return;
-    }
+    if (x < 0 || y < 0) return;
     Eigen::MatrixXd place(2, series_.time.size());
     place << series_.displacement.row(x), series_.displacement.row(y);
-    const Eigen::RowVectorXd from_axis = place.colwise().norm();
+    add("sun_distance_m", {peak_of(place.colwise().norm()), per});
     place.colwise() -= place.rowwise().mean().eval();
-    add(peak_of(place.colwise().norm()), per);
-    add(peak_of(from_axis), per);
-    values_.push_back(average(std::sqrt(place.colwise().squaredNorm().mean()), per));
-    values_.push_back(swing_of_rows(place, per));
+    add("sun_orbit_m", {peak_of(place.colwise().norm()), per});
+    add("sun_rms_m", average(std::sqrt(place.colwise().squaredNorm().mean()), per));
+    add("sun_peak_to_peak_m", {largest_swing(place), 2 * per});
+  }
+
+  /// The largest ones of the rows.
+  void add_motion(const std::string& what, const Eigen::MatrixXd& rows) {
+    add(what + "_rms_m", average(largest_range(rows).rms, per_.deflection));
+    add(what + "_peak_to_peak_m", {largest_swing(rows), 2 * per_.deflection});
   }
 
   const PlanetaryStage& stage_;
   const LumpedSystem& system_;
   TimeSeries series_;
   StageForces forces_;
-  Eigen::MatrixXd resultant_;
   PerForce per_;
-  std::vector<WindowValue> values_{};
+  WindowValues values_{};
 };
 
 }  // namespace
 
-BodyResults body_results(const PlanetaryStage& stage, const LumpedSystem& system, const SteadyResponse& found) {
-  const auto figures = window_figures(
-      system, found, [&](const ResponseWindow& window) { return BodyMotion(stage, system, window).values(); });
-  auto next = figures.begin();
-  BodyResults results;
-  results.pins.resize(static_cast<std::size_t>(stage.planets()));
-  for (auto& pin : results.pins)
-    for (const auto& quantity : pin_quantities) pin.*quantity.value = *next++;
-  for (const auto& quantity : body_quantities) results.*quantity.value = *next++;
-  return results;
+FigureSet body_results(const PlanetaryStage& stage, const LumpedSystem& system, const SteadyResponse& found) {
+  return window_figures(system, found,
+                        [&](const ResponseWindow& window) { return BodyMotion(stage, system, window).values(); });
 }
 
-std::string pin_key(std::size_t planet, const PinQuantity& quantity) {
-  return fmt::format("planet{}_{}", planet + 1, quantity.name);
+std::string pin_key(std::size_t planet, const std::string& quantity) {
+  return fmt::format("planet{}_{}", planet + 1, quantity);
 }
 
 std::vector<FigureSpec> body_figures() {

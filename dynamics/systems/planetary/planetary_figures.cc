@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "dynamics/figures/common_figures.h"
 
 namespace annulus::dynamics {
@@ -85,8 +83,8 @@ FigureSet figures(const DynamicResponse& response) {
     for (const auto& quantity : branch_quantities)
       set.set(fmt::format("{}_{}", kind.name, quantity.name), largest(branches, quantity.value));
   }
-  for (const auto& quantity : body_quantities)
-    if (const auto& value = response.bodies.*quantity.value; !std::isnan(value.value)) set.set(quantity.key, value);
+  for (const auto& spec : body_figures())
+    if (const auto* entry = response.bodies.find(spec.key)) set.set(entry->key, entry->figure, entry->parts);
   add_shafts(set, response.shafts);
   set.set("steady", response.steady ? 1 : 0);
   set.set(motions_key, number_of(response.motions));

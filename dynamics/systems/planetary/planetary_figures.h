@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -47,8 +46,8 @@ inline constexpr std::array branch_quantities{BranchQuantity{"dynamic_factor", &
 /// "sun_planet2_peak_factor": of the mesh of one planet, counted from 0.
 [[nodiscard]] std::string branch_key(const std::string& kind, std::size_t planet, const BranchQuantity& quantity);
 
-/// Calls visit(key, result) for every known result that carries the errors of tables, those of every planet by itself,
-/// and the largest torque of every shaft.
+/// Calls visit(key, result) for every result that carries the errors of tables, those of every planet by itself, and
+/// the largest torque of every shaft; but for those in DynamicResponse::bodies.
 template <class Response, class Visit>
 void for_each_figure(Response& response, Visit visit) {
   for (const auto& kind : stage_mesh_kinds) {
@@ -58,10 +57,6 @@ void for_each_figure(Response& response, Visit visit) {
       for (const auto& quantity : branch_quantities)
         visit(branch_key(kind.name, n, quantity), branches[n].*quantity.value);
   }
-  for (std::size_t n = 0; n < response.bodies.pins.size(); ++n)
-    for (const auto& quantity : pin_quantities) visit(pin_key(n, quantity), response.bodies.pins[n].*quantity.value);
-  for (const auto& quantity : body_quantities)
-    if (auto& value = response.bodies.*quantity.value; !std::isnan(value.value)) visit(quantity.key, value);
   for (auto& shaft : response.shafts) visit(torque_key(shaft), shaft.largest_torque);
 }
 

@@ -22,7 +22,7 @@ struct DynamicResponse : SteadyOutcome {
   /// Momentum balance of the sun's rotation over the window, relative to T_s: mean of sum F_sn r_bs (and of its
   /// torsional support, and the change of angular momentum) against T_s.
   double force_balance_relative = 0;
-  BodyResults bodies;
+  FigureSet bodies;  ///< body_results()
   std::vector<ShaftResult> shafts;
   TimeSeries series;
 };

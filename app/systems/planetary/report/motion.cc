@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "app/systems/planetary/planetary_input.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
@@ -24,11 +23,11 @@ PageTable motion_table(const RunResult& result) {
   for (const auto& declared : dynamics::body_figures()) {
     std::vector<double> values;
     for (const auto& [name, response] : responses)
-      if (const auto* entry = response->errors.find(declared.key)) values.push_back(entry->figure.value);
+      if (const auto* entry = response->figures.bodies.find(declared.key)) values.push_back(entry->figure.value);
     if (values.empty()) continue;
     const auto spec = in_readable_unit(declared, values);
     rows.push_back({with_unit(spec.title, spec.axis_label()), [spec](const StageResponse& r) {
-                      const auto* entry = r.errors.find(spec.key);
+                      const auto* entry = r.figures.bodies.find(spec.key);
                       return Text(entry ? measured(entry->figure, spec.scale) : "–");
                     }});
   }
@@ -70,7 +69,7 @@ Blocks orbits(const RunResult& result) {
   std::vector<Plot> plots;
   for (const auto& [name, response] : responses_of(result)) {
     const auto& m = response->motion;
-    if (!(response->figures.bodies.sun_distance.value > 0)) continue;  // held
+    if (!(response->figures.bodies.value("sun_distance_m") > 0)) continue;  // held
     const Plot orbit = line_plot({.title = name, .x_label = "x, µm", .y_label = "y, µm"}, m.sun_orbit,
                                  {.x = "x_m", .x_scale = 1e6, .y_scale = 1e6, .rows_to = shown_cycles},
                                  {{.column = "y_m", .label = "orbit", .colour = 5}});
