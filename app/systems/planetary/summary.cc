@@ -80,10 +80,10 @@ void add_mesh_results(Json& ring, const StageResponse& response, const dynamics:
 /// Lists over the planets, and the largest forces of supports; all with their errors among the results of the variant.
 Json bearing_forces_json(const FigureSet& bodies) {
   auto largest = Json::array(), error = largest, tangential = largest;
-  for (std::size_t n = 0; const auto* entry = bodies.find(dynamics::pin_key(n, dynamics::pin_force)); ++n) {
+  for (std::size_t n = 0; const auto* entry = bodies.find(dynamics::pin_key(n, dynamics::force_of_pin)); ++n) {
     largest.push_back(json_number(entry->figure.value));
     error.push_back(json_number(entry->figure.error));
-    tangential.push_back(json_number(bodies.value(dynamics::pin_key(n, dynamics::pin_tangential_force))));
+    tangential.push_back(json_number(bodies.value(dynamics::pin_key(n, dynamics::tangential_force_of_pin))));
   }
   return {{"planet_max_N", std::move(largest)},
           {"planet_max_error_N", std::move(error)},

@@ -83,8 +83,8 @@ class BodyMotion {
     const Eigen::MatrixXd resultant = forces_.pins.resultant();
     for (Eigen::Index n = 0; n < resultant.rows(); ++n) {
       const auto key = [n](const char* quantity) { return pin_key(static_cast<std::size_t>(n), quantity); };
-      add(key(pin_force), {peak_of(resultant.row(n)), per_.of_planet});
-      add(key(pin_tangential_force), average(forces_.pins.tangential.row(n).mean(), per_.of_planet));
+      add(key(force_of_pin), {peak_of(resultant.row(n)), per_.of_planet});
+      add(key(tangential_force_of_pin), average(forces_.pins.tangential.row(n).mean(), per_.of_planet));
     }
     add("planet_bearing_force_N", {peak_of_rows(resultant), per_.of_planet});
     if (const auto zone = load_zone(stage_, resultant); !std::isnan(zone.refined))

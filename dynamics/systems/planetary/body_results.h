@@ -20,7 +20,7 @@ namespace annulus::dynamics {
 [[nodiscard]] std::vector<FigureSpec> body_figures();
 
 /// Ends of the keys of planets.
-inline constexpr const char *pin_force = "bearing_force_N", *pin_tangential_force = "tangential_force_N";
+inline constexpr const char *force_of_pin = "bearing_force_N", *tangential_force_of_pin = "tangential_force_N";
 /// "planet2_bearing_force_N": of one planet, counted from 0.
 [[nodiscard]] std::string pin_key(std::size_t planet, const std::string& quantity);
 
