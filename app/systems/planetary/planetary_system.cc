@@ -111,6 +111,10 @@ class PlanetarySystem final : public GearSystem {
 
   [[nodiscard]] std::string table_for(const std::string& result) const override {
     if (result == dynamics::efficiency_figure().key && !has_friction(scene())) return "[friction]";
+    const auto& input = planetary(scene());
+    if (result == "planet_bearing_load_zone_rad" && input.supports.planet_clearance == 0)
+      return "supports.planet_clearance_um";
+    if (result == "held_torque_Nm" && !input.stage.held) return "a held member";
     return GearSystem::table_for(result);
   }
 
